@@ -29,6 +29,8 @@ void check_family(Trial& trial) {
       return check_writer(trial);
     case Family::probes:
       return check_probe(trial);
+    case Family::engines:
+      return check_engine(trial);
   }
 }
 

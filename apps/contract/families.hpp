@@ -65,5 +65,6 @@ void check_load(Trial& trial);
 void check_solver(Trial& trial);
 void check_writer(Trial& trial);
 void check_probe(Trial& trial);
+void check_engine(Trial& trial);
 
 }  // namespace hyperlattice::contract

@@ -49,12 +49,17 @@ void choose_directory(std::filesystem::path& directory, const std::filesystem::p
 /// program at once.
 void stop_gently_when_interrupted();
 
+/// Ends all messages of this process but the last words of a crash: of a rank that is not the
+/// first.
+void speak_no_more();
+
 /// The argument --threads.
 struct ThreadArgument {
   int threads = 0;  ///< 0: not given
 
   void declare(CLI::App& command);
-  Threads count() const;
+  /// Returns the threads of each of so many ranks on this machine.
+  Threads count(int node_ranks = 1) const;
 };
 
 /// The arguments that `run` and `plan` share.
@@ -64,7 +69,7 @@ struct SceneArguments {
   ThreadArgument threads;
 
   void declare(CLI::App& command);
-  std::unique_ptr<Plan> plan(Host& host) const;
+  std::unique_ptr<Plan> plan(Host& host, int ranks = 1, int node_ranks = 1) const;
 };
 
 /// The arguments that `analyze` and `calibrate` share.

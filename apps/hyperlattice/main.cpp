@@ -7,6 +7,7 @@
 #include <process/descriptors.hpp>
 #include <process/file_limit.hpp>
 #include <process/lack_of_memory.hpp>
+#include <ranks/ranks.hpp>
 #include <scene/scene_plugins.hpp>
 
 #include <spdlog/sinks/stdout_sinks.h>
@@ -21,8 +22,10 @@
 namespace {
 using namespace hyperlattice;
 
+bool is_silent = false;
+
 int complain(int code, const std::string& message) {
-  std::cerr << "hyperlattice: " << message << '\n';
+  if (!is_silent) std::cerr << "hyperlattice: " << message << '\n';
   return code;
 }
 
@@ -115,6 +118,8 @@ int obey(int count, char** words) {
                              "wrong input, nothing was written\n" + std::string(error.what()));
   } catch (const RunError& error) {
     return complain_of_scene(exit_run, error.what());
+  } catch (const OtherRankError& error) {
+    return complain(error.exit_code(), error.what());
   } catch (const std::bad_alloc&) {
     return complain(exit_outside,
                     lack_of_memory() + "\n`hyperlattice plan SCENE` says how much a scene needs");
@@ -126,6 +131,11 @@ int obey(int count, char** words) {
 }
 
 }  // namespace
+
+void hyperlattice::speak_no_more() {
+  is_silent = true;
+  spdlog::set_level(spdlog::level::off);
+}
 
 int main(int count, char** words) try {
   open_missing_streams();

@@ -40,10 +40,11 @@ void ThreadArgument::declare(CLI::App& command) {
       ->check(CLI::Range(1, most_threads));
 }
 
-Threads ThreadArgument::count() const {
+Threads ThreadArgument::count(int node_ranks) const {
   if (threads > 0) return threads;
   const char* wish = std::getenv("OMP_NUM_THREADS");
-  if (wish == nullptr || *wish == '\0') return Threads::up_to(std::min(processors(), most_threads));
+  if (wish == nullptr || *wish == '\0')
+    return Threads::up_to(std::min(processors_of_each(node_ranks), most_threads));
   // OpenMP lists one number for each level of nesting; the first one counts.
   const std::string_view list = wish, first = list.substr(0, list.find(','));
   int number = 0;
@@ -67,9 +68,9 @@ void SceneArguments::declare(CLI::App& command) {
   threads.declare(command);
 }
 
-std::unique_ptr<Plan> SceneArguments::plan(Host& host) const {
+std::unique_ptr<Plan> SceneArguments::plan(Host& host, int ranks, int node_ranks) const {
   const ElapsedTime elapsed_time;
-  return make_plan(read_scene(scene, settings, host), threads.count());
+  return make_plan(read_scene(scene, settings, host), threads.count(node_ranks), ranks);
 }
 
 Command plan_command(CLI::App& program) {

@@ -1,7 +1,10 @@
 // hyperlattice run: plans a scene, runs it, writes its results.
 #include "commands.hpp"
 
+#include <ranks/launcher.hpp>
 #include <run/run.hpp>
+
+#include <spdlog/spdlog.h>
 
 namespace hyperlattice {
 void choose_directory(std::filesystem::path& directory, const std::filesystem::path& input) {
@@ -19,6 +22,7 @@ void choose_directory(std::filesystem::path& directory, const std::filesystem::p
 Command run_command(CLI::App& program) {
   struct Arguments : SceneArguments {
     RunOptions options;
+    std::string engine;
   };
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command = program.add_subcommand("run", "run a scene and write its results");
@@ -37,19 +41,28 @@ Command run_command(CLI::App& program) {
       ->add_option("--checkpoint-every", arguments->options.checkpoint_every,
                    "seconds between checkpoints (default: 600; 0: only when interrupted)")
       ->check(CLI::Range(0.0, 1e12));  // refuses nan
+  command
+      ->add_option("--engine", arguments->engine,
+                   "what joins the processes that a launcher started: mpi, an engine of your own, "
+                   "or none (default: mpi under mpirun or srun, else none)")
+      ->type_name("NAME");
   command->add_flag("--quiet", arguments->options.quiet, "no progress lines");
-  return {command, [arguments] {
-            RunOptions& options = arguments->options;
-            if (options.resume && options.overwrite)
-              throw InputError({{"--overwrite", "",
-                                 "either --resume or --overwrite: one keeps the run in the folder, "
-                                 "the other gives it up"}});
-            choose_directory(options.directory, arguments->scene);
-            Host host;
-            const auto plan = arguments->plan(host);
-            stop_gently_when_interrupted();
-            return run(*plan, options);
-          }};
+  return {
+      command, [arguments] {
+        RunOptions& options = arguments->options;
+        if (options.resume && options.overwrite)
+          throw InputError({{"--overwrite", "",
+                             "either --resume or --overwrite: one keeps the run in the folder, "
+                             "the other gives it up"}});
+        choose_directory(options.directory, arguments->scene);
+        Host host;
+        const auto ranks = join_ranks(host, arguments->engine);
+        if (!ranks->is_first()) speak_no_more();  // all ranks find the same
+        std::unique_ptr<Plan> plan;
+        ranks->together([&] { plan = arguments->plan(host, ranks->count(), ranks->on_node()); });
+        stop_gently_when_interrupted();
+        return run(*plan, options, *ranks);
+      }};
 }
 
 }  // namespace hyperlattice

@@ -31,6 +31,9 @@ bool whole(const LoadFunctions& f) { return f.declare && f.factor; }
 bool whole(const SolverFunctions& f) { return f.plan && f.run; }
 bool whole(const WriterFunctions& f) { return f.begin && f.frame && f.end; }
 bool whole(const ProbeFunctions& f) { return f.begin && f.sample; }
+bool whole(const EngineFunctions& f) {
+  return f.join && f.exchange && f.largest && f.sum && f.spread && f.abort;
+}
 
 template <class Functions>
 bool has_table(const ComponentInfo& info) {
@@ -55,6 +58,8 @@ bool has_functions(const ComponentInfo& info) {
       return has_table<WriterFunctions>(info);
     case Family::probes:
       return has_table<ProbeFunctions>(info);
+    case Family::engines:
+      return has_table<EngineFunctions>(info);
   }
   return false;
 }

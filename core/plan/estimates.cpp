@@ -136,7 +136,7 @@ double model_bytes(const Model& model) {
 void estimate_memory(Plan& plan) {
   const Model& model = *plan.model;
   const double particles = particles_of(plan);
-  const std::unique_ptr<Layout> layout = make_layout(model, plan.threads);
+  const std::unique_ptr<Layout> layout = make_layout(model, plan.blocks);
   plan.bytes_per_particle = layout->state_bytes() / particles;
 
   double bytes = model_bytes(model);

@@ -101,14 +101,23 @@ std::uint64_t record_steps(const PlannedStage& stage) {
 
 void set_threads(Plan& plan, int threads) {
   plan.threads = threads;
+  plan.blocks = threads * plan.ranks;
   estimate_memory(plan);
   estimate_time(plan);
 }
 
-std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, Threads threads) {
+void set_blocks(Plan& plan, int blocks) {
+  plan.threads = (blocks + plan.ranks - 1) / plan.ranks;
+  plan.blocks = blocks;
+  estimate_memory(plan);
+  estimate_time(plan);
+}
+
+std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, Threads threads, int ranks) {
   const auto start = std::chrono::steady_clock::now();
   auto plan = std::make_unique<Plan>();
   plan->scene = std::move(scene);
+  plan->ranks = ranks;
   plan->identity = identity_of(*plan->scene);
   try {
     plan->model = build_model(*plan->scene);

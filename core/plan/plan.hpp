@@ -51,12 +51,14 @@ struct Plan {
   std::vector<PlannedTable> tables;               ///< in the order of the scene's probes
   std::map<const Stage*, FrameCost> frame_costs;  ///< of the writers that could be tried
   std::map<const Stage*, double> writer_bytes;    ///< of memory, of the writers that state it
-  int threads = 1;
-  double bytes_per_particle = 0;  ///< of the state that the kernel works on
-  double memory_bytes = 0;        ///< of the state, the model and the scratch
-  double output_bytes = 0;        ///< estimated
-  double setup_seconds = 0;       ///< spent on building the model
-  double expected_seconds = 0;    ///< estimated from the kernel's cost on a common machine
+  int ranks = 1;                                  ///< processes of the run
+  int threads = 1;                                ///< of each rank
+  int blocks = 1;                                 ///< of the state, in all ranks together
+  double bytes_per_particle = 0;                  ///< of the state that the kernel works on
+  double memory_bytes = 0;                        ///< of the state, the model and the scratch
+  double output_bytes = 0;                        ///< estimated
+  double setup_seconds = 0;                       ///< spent on building the model
+  double expected_seconds = 0;  ///< estimated from the kernel's cost on a common machine
   std::vector<LeftOut> left_out;
   AskedFields used_fields;  ///< of each writer: fields that it names in begin()
 
@@ -65,11 +67,14 @@ struct Plan {
 };
 
 /// Validates everything and writes nothing. Throws as read_scene and build_model do, and InputError
-/// if a solver refuses its time step.
-std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, Threads threads);
+/// if a solver refuses its time step. `threads`: of each rank.
+std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, Threads threads, int ranks = 1);
 
-/// Sets another number of threads and repeats the estimates that depend on it.
+/// Sets another number of threads of each rank, with a block of the state for each thread, and
+/// repeats the estimates that depend on it.
 void set_threads(Plan& plan, int threads);
+/// Sets the number of blocks of a run that is resumed, and as many threads as they need.
+void set_blocks(Plan& plan, int blocks);
 
 /// Returns the seconds between the outputs of a writer or probe in a run of `end_time` seconds. By
 /// default a run has 20 frames of a writer and 200 samples of a probe.

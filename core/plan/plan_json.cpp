@@ -115,6 +115,7 @@ nlohmann::json common_facts(const Plan& plan) {
           {"precision", precision_names[static_cast<std::size_t>(model.springs.choice.precision)]},
           {"instructions", model.springs.kernels().instructions},
           {"spring_arithmetic", spring_arithmetic()},
+          {"ranks", plan.ranks},
           {"threads", plan.threads},
           {"steps", plan.steps()},
           {"end_time", plan.end_time()},

@@ -2,6 +2,7 @@
 #include <process/processors.hpp>
 
 #include <sched.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -30,6 +31,14 @@ int processors(const std::filesystem::path& root) {
   const auto granted = ControlGroups(root).processors();
   if (!granted || !(*granted < allowed)) return allowed;
   return std::max(1, static_cast<int>(std::ceil(*granted - 1e-9)));
+}
+
+int processors_of_each(int processes) {
+  const long all = ::sysconf(_SC_NPROCESSORS_ONLN);
+  const auto granted = ControlGroups("/").processors();
+  const double shared =
+      granted ? std::min(*granted, static_cast<double>(all)) : static_cast<double>(all);
+  return std::clamp(static_cast<int>(shared / processes), 1, processors());
 }
 
 }  // namespace hyperlattice

@@ -21,12 +21,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view head_tag = "head", state_tag = "stat";
-constexpr int version = 3;  // of the checkpoint's format
+constexpr int version = 4;  // of the checkpoint's format
 
 std::string text_of(const CheckpointHead& head) {
   nlohmann::json json{{"version", version},
                       {"identity", identity_json(head.identity)},
-                      {"threads", head.threads},
+                      {"blocks", head.blocks},
                       {"at_start", head.at_start}};
   auto& tables = json["tables"] = nlohmann::json::array();
   for (const TableMark& table : head.tables)
@@ -42,7 +42,7 @@ CheckpointHead read_head(RecordReader& records, const fs::path& file) {
       throw std::runtime_error(file.string() + ": a checkpoint of another version of the program");
     CheckpointHead head;
     head.identity = read_identity(json.at("identity"));
-    head.threads = json.at("threads").get<std::int32_t>();
+    head.blocks = json.at("blocks").get<std::int32_t>();
     head.at_start = json.at("at_start").get<bool>();
     for (const auto& table : json.at("tables"))
       head.tables.push_back(
@@ -87,7 +87,7 @@ Checkpoint newest(const fs::path& directory) {
 }  // namespace
 
 CheckpointHead checkpoint_head(const Plan& plan, bool at_start) {
-  return {plan.identity, plan.threads, at_start, {}};
+  return {plan.identity, plan.blocks, at_start, {}};
 }
 
 Checkpoint find_checkpoint(const Plan& plan, const fs::path& directory) {

@@ -15,7 +15,7 @@ namespace hyperlattice {
 /// The part of a checkpoint before the state.
 struct CheckpointHead {
   Identity identity;  ///< what the run depends on
-  std::int32_t threads = 1;
+  std::int32_t blocks = 1;
   bool at_start = false;          ///< the run has made no progress that is worth keeping
   std::vector<TableMark> tables;  ///< the tables that the run had written
 };

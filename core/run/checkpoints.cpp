@@ -4,6 +4,9 @@ namespace hyperlattice {
 
 void Checkpoints::save(std::uint64_t steps) {
   drain_();
+  gather_();
+  saved_ = std::chrono::steady_clock::now();
+  if (!ranks_.is_first()) return;
   stopwatch_.lap();  // a run that continues from here counts this part too
   stopwatch_.output([&] {
     CheckpointHead head = checkpoint_head(plan_, steps == 0);
@@ -18,7 +21,11 @@ void Checkpoints::save(std::uint64_t steps) {
 void Checkpoints::save_if_due(std::uint64_t steps, std::uint64_t stage_steps) {
   constexpr std::uint64_t every = 16;  // steps; a clock costs about as much as a hundred particles
   if (!(seconds_between_ > 0) || stage_steps == 0 || stage_steps % every != 0) return;
-  if (seconds_since(saved_) >= seconds_between_) save(steps);
+  // The clock of one rank decides for all.
+  if (ranks_.is_first() && seconds_since(saved_) >= seconds_between_) ranks_.wish(Wish::save);
+  if (!ranks_.agreed(Wish::save)) return;
+  ranks_.done(Wish::save);
+  save(steps);
 }
 
 }  // namespace hyperlattice

@@ -10,15 +10,19 @@ namespace hyperlattice {
 /// All members throw OutsideError or std::runtime_error if the disk refuses.
 class Checkpoints {
  public:
-  /// `seconds_between`: of save_if_due(); 0: it never saves. `drain` waits until all frames are
-  /// written. `state` passes all that the run needs to an archive.
-  Checkpoints(const Plan& plan, RunFolder& folder, Stopwatch& stopwatch, double seconds_between,
-              std::function<void()> drain, Visit state)
+  /// The first of `ranks` writes. `seconds_between`: of save_if_due(); 0: it never saves. `drain`
+  /// waits until all frames are written. `gather` brings the state up to date. `state` passes all
+  /// that the run needs to an archive.
+  Checkpoints(const Plan& plan, RunFolder& folder, Stopwatch& stopwatch, Ranks& ranks,
+              double seconds_between, std::function<void()> drain, std::function<void()> gather,
+              Visit state)
       : plan_(plan),
         folder_(folder),
         stopwatch_(stopwatch),
+        ranks_(ranks),
         seconds_between_(seconds_between),
         drain_(std::move(drain)),
+        gather_(std::move(gather)),
         state_(std::move(state)) {}
 
   /// Saves the state after this number of steps of the run; before the first one nothing but the
@@ -31,8 +35,9 @@ class Checkpoints {
   const Plan& plan_;
   RunFolder& folder_;
   Stopwatch& stopwatch_;
+  Ranks& ranks_;
   double seconds_between_;
-  std::function<void()> drain_;
+  std::function<void()> drain_, gather_;
   Visit state_;
   std::chrono::steady_clock::time_point saved_ = std::chrono::steady_clock::now();
 };

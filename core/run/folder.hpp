@@ -26,6 +26,8 @@ class RunFolder {
   /// use a study's folder, or if its list is no regular file. Throws OutsideError if another run is
   /// writing there, or if the system refuses.
   RunFolder(std::filesystem::path directory, bool is_new);
+  /// The folder in which another rank writes: nothing is read or written here.
+  explicit RunFolder(std::filesystem::path directory) : directory_(std::move(directory)) {}
 
   /// Returns whether an earlier run left results here.
   bool has_results() const { return !earlier_.empty(); }
@@ -77,7 +79,7 @@ class RunFolder {
   std::filesystem::path list_path() const { return directory_ / own_files_list; }
 
   std::filesystem::path directory_;
-  std::unique_ptr<Table> list_;  ///< open and locked
+  std::unique_ptr<Table> list_;  ///< open and locked; null: another rank writes
   std::list<std::pair<std::string, Table>> tables_;
   std::vector<TableMark> marks_;
   std::mutex claiming_;

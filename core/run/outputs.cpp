@@ -15,12 +15,13 @@
 namespace hyperlattice {
 
 Outputs::Outputs(const Model& model, Simulation& simulation, RunFolder& folder, double end_time,
-                 int threads)
+                 int threads, Ranks& ranks)
     : model_(model),
       simulation_(simulation),
       source_(model, simulation),
       folder_(folder),
       threads_(threads),
+      ranks_(ranks),
       fields_(fields_of(model)),
       regions_(model.body, model.scene->regions),
       acted_(model, regions_) {
@@ -41,6 +42,8 @@ void Outputs::archive(Archive& archive) {
 }
 
 void Outputs::begin() {
+  if (!ranks_.is_first()) return;
+  const Ranks::Solo solo(ranks_);
   for (Output& output : outputs_) begin(output);
   cut_faces_ = {};
   source_.renew();
@@ -60,16 +63,15 @@ void Outputs::begin() {
 void Outputs::begin(Output& output) {
   const Stage& stage = *output.stage;
   output.component = make_component(stage);
-  const bool is_probe = stage.family() == Family::probes;
   const std::string type = stage.component->type();
   const bool is_labelled =
       stage.name !=
       type.substr(type.find('.') + 1);  // two writers of a type must not share their files
-  output.name = is_probe ? "probes" : is_labelled ? stage.name : "";
+  output.name = output.is_probe() ? "probes" : is_labelled ? stage.name : "";
   output.directory =
       (output.name.empty() ? folder_.directory() : folder_.subfolder(output.name)).string();
   const OutputContext context = context_of(output);
-  if (!is_probe) {
+  if (!output.is_probe()) {
     call(stage, "begin", [&](const Complaint& why) {
       return stage.functions<WriterFunctions>().begin(output.component.get(), context, why);
     });
@@ -176,29 +178,38 @@ void Outputs::show_last() {
   show_to(due);
 }
 
+/// Shows the present state to outputs. All ranks bring it up to date, and the first one shows it.
 void Outputs::show_to(const std::vector<Output*>& due) {
   if (due.empty()) return;
+  simulation_.gather();
+  if (ranks_.is_first()) {
+    const Ranks::Solo solo(ranks_);
+    show_here(due);
+  }
+  for (Output* output : due) {
+    if (output->is_probe()) output->shown.clear();
+    output->shown.push_back({simulation_.steps(), simulation_.time()});
+  }
+}
+
+void Outputs::show_here(const std::vector<Output*>& due) {
   const Snapshot& snapshot = source_.take();
   std::vector<Output*> queued;
   FieldNames fields;
   for (Output* output : due) {
-    if (output->table != nullptr) {
+    if (output->is_probe()) {
       sample(*output, snapshot);
-      output->shown.clear();
     } else if (!queue_ || output->fields.empty()) {
       write(*output, snapshot);
     } else {
       queued.push_back(output);
       fields.insert(output->fields.begin(), output->fields.end());
-      continue;
     }
-    output->shown.push_back({snapshot.step, snapshot.time});
   }
-  if (queued.empty()) return source_.renew();
-  queue_->put(source_, fields, [queued](const Snapshot& copy) {
-    for (Output* output : queued) write(*output, copy);
-  });
-  for (Output* output : queued) output->shown.push_back({snapshot.step, snapshot.time});
+  if (!queued.empty())
+    queue_->put(source_, fields, [queued](const Snapshot& copy) {
+      for (Output* output : queued) write(*output, copy);
+    });
   source_.renew();
 }
 
@@ -223,9 +234,11 @@ void Outputs::drain() {
 }
 
 void Outputs::end() {
+  if (!ranks_.is_first()) return;
+  const Ranks::Solo solo(ranks_);
   drain();
   for (Output& output : outputs_) {
-    if (output.table != nullptr) continue;
+    if (output.is_probe()) continue;
     output.is_writing = true;
     call(*output.stage, "end", [&](const Complaint& why) {
       return output.stage->functions<WriterFunctions>().end(output.component.get(), why);

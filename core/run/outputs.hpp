@@ -19,8 +19,9 @@ class Outputs {
  public:
   /// `end_time`, s, is the run's and sets the interval of outputs that have none. With more than
   /// one of `threads`, frames are written by as many threads besides those of the simulation.
+  /// Only the first of `ranks` has the components; the others keep its schedule.
   Outputs(const Model& model, Simulation& simulation, RunFolder& folder, double end_time,
-          int threads);
+          int threads, Ranks& ranks);
   void archive(Archive& archive);
   /// Makes and begins every writer and probe, or continues them.
   void begin();
@@ -49,6 +50,7 @@ class Outputs {
     bool is_writing = false;       ///< it may announce files
     Table* table = nullptr;        ///< of a probe
     std::vector<double> row;
+    bool is_probe() const { return stage->family() == Family::probes; }
   };
   void begin(Output& output);
   static void offer_forces(OutputContext& context);
@@ -58,6 +60,7 @@ class Outputs {
     return !output.shown.empty() && output.shown.back().step == simulation_.steps();
   }
   void show_to(const std::vector<Output*>& due);
+  void show_here(const std::vector<Output*>& due);
   static void sample(Output& probe, const Snapshot& snapshot);
   static void write(Output& writer, const Snapshot& snapshot);
 
@@ -66,6 +69,7 @@ class Outputs {
   SnapshotSource source_;
   RunFolder& folder_;
   int threads_;
+  Ranks& ranks_;
   std::vector<std::string_view> fields_;  ///< of this run
   std::vector<CrackFace> cut_faces_;      ///< while outputs begin, if one asks for them
   std::list<Output> outputs_;

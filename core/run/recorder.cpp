@@ -6,13 +6,13 @@
 namespace hyperlattice {
 
 Recorder::Recorder(const Plan& plan, Simulation& simulation, RunFolder& folder,
-                   Stopwatch& stopwatch)
+                   Stopwatch& stopwatch, Ranks& ranks)
     : simulation_(simulation),
       stopwatch_(stopwatch),
       guard_(*plan.model, simulation),
       cells_(*plan.model),
       history_(folder, *plan.model),
-      outputs_(*plan.model, simulation, folder, plan.end_time(), plan.threads),
+      outputs_(*plan.model, simulation, folder, plan.end_time(), plan.threads, ranks),
       planned_steps_(plan.steps()) {
   if (plan.model->springs.breakable || plan.model->springs.softens) failures_.emplace(folder);
 }

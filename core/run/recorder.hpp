@@ -21,7 +21,8 @@ namespace hyperlattice {
 /// the disk refuses.
 class Recorder {
  public:
-  Recorder(const Plan& plan, Simulation& simulation, RunFolder& folder, Stopwatch& stopwatch);
+  Recorder(const Plan& plan, Simulation& simulation, RunFolder& folder, Stopwatch& stopwatch,
+           Ranks& ranks);
   /// Saves or restores all but the state of the simulation.
   void archive(Archive& archive);
   /// Begins the files that grow, or continues them. `quiet`: shows no progress.

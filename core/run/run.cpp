@@ -24,9 +24,9 @@ using WallClock = std::chrono::steady_clock;
 /// Takes the memory and threads of a run before it removes the results of an earlier run. Throws
 /// OutsideError if the system refuses them; but returns null if there are no results to lose: the
 /// run then fails by itself and leaves a summary.
-std::unique_ptr<Simulation> build(const RunFolder& folder, const Plan& plan) {
+std::unique_ptr<Simulation> build(const RunFolder& folder, const Plan& plan, Ranks& ranks) {
   try {
-    return std::make_unique<Simulation>(*plan.model, plan.threads);
+    return std::make_unique<Simulation>(*plan.model, plan.threads, ranks, plan.blocks);
   } catch (const std::bad_alloc&) {
     if (folder.has_results())
       throw OutsideError(fmt::format("nothing was changed: this run needs about {:.0f} MB; {}",
@@ -46,23 +46,22 @@ std::vector<std::filesystem::path> inputs_of(const Plan& plan) {
   return inputs;
 }
 
-/// Prepares the folder. Returns the checkpoint from which the run continues, or nothing for a new
-/// run.
-std::optional<Checkpoint> prepare(RunFolder& folder, Plan& plan, const RunOptions& options,
-                                  std::unique_ptr<Simulation>& simulation) {
-  std::optional<Checkpoint> resumed;
-  if (options.resume) resumed = find_checkpoint(plan, options.directory);
-  if (resumed && resumed->head.threads != plan.threads) {
-    spdlog::info("the run goes on with {} threads, as it began", resumed->head.threads);
-    set_threads(plan, resumed->head.threads);
+/// Builds the simulation, and prepares the folder for a new run or for one that goes on from
+/// `resumed`, which is cleared if it holds no step.
+void prepare(RunFolder& folder, Plan& plan, const RunOptions& options, Ranks& ranks,
+             std::optional<Checkpoint>& resumed, std::unique_ptr<Simulation>& simulation) {
+  if (resumed && resumed->head.blocks != plan.blocks) {
+    set_blocks(plan, resumed->head.blocks);
+    spdlog::info("the run goes on with {} threads{}, as it began", plan.threads,
+                 plan.ranks == 1 ? "" : " in each rank");
   }
-  simulation = build(folder, plan);
-  if (resumed && !resumed->head.at_start)
+  simulation = build(folder, plan, ranks);
+  const bool goes_on = resumed && !resumed->head.at_start;
+  if (ranks.is_first() && goes_on)
     folder.go_on(resumed->head.tables, output_names(plan));
-  else
+  else if (ranks.is_first())
     folder.begin(options.overwrite || resumed, output_names(plan), inputs_of(plan));
-  if (resumed && resumed->head.at_start) resumed.reset();
-  return resumed;
+  if (!goes_on) resumed.reset();
 }
 
 /// Tells what is about to run.
@@ -80,14 +79,16 @@ void announce(const Plan& plan, const RunOptions& options) {
 }
 
 /// Does a part of the run. Errors go to the outcome.
-void attempt(const Plan& plan, Outcome& outcome, const std::function<void()>& work) {
+void attempt(const Plan& plan, Ranks& ranks, Outcome& outcome, const std::function<void()>& work) {
   const auto end_for_memory = [&] {
     outcome.end("failed", exit_outside,
                 fmt::format("this run needs about {:.0f} MB; {}", plan.memory_bytes / 1e6,
                             lack_of_memory()));
   };
   try {
-    work();
+    ranks.together(work);
+  } catch (const OtherRankError& error) {
+    outcome.end("failed", error.exit_code(), error.what());
   } catch (const RunError& error) {
     if (memory_ran_out()) end_for_memory();  // also the reason if a plugin failed
     outcome.end("failed", exit_run, error.what());
@@ -109,24 +110,25 @@ bool may_be_short(const Plan& plan, std::uint64_t steps) {
 /// Solves the plan. `simulation`: null if it is not built yet. Errors go to the outcome.
 void solve(const Plan& plan, const RunOptions& options, RunFolder& folder,
            const std::optional<Checkpoint>& resumed, std::unique_ptr<Simulation> simulation,
-           Outcome& outcome) {
+           Ranks& ranks, Outcome& outcome) {
   std::optional<StageSequence> stages;
-  attempt(plan, outcome, [&] {
+  attempt(plan, ranks, outcome, [&] {
     const auto start = WallClock::now();
     if (!resumed) folder.write("scene.resolved.json", plan.scene->resolved_in(options.directory));
-    if (!simulation) simulation = std::make_unique<Simulation>(*plan.model, plan.threads);
-    stages.emplace(plan, options, folder, *simulation);
+    if (!simulation)
+      simulation = std::make_unique<Simulation>(*plan.model, plan.threads, ranks, plan.blocks);
+    stages.emplace(plan, options, folder, *simulation, ranks);
     stages->begin(resumed);
     outcome.setup_seconds += seconds_since(start);
     stages->solve();
     stages->finish();
     folder.check_tables();
-    if (stop_requested() && may_be_short(plan, simulation->steps()))
+    if (ranks.agreed(Wish::stop) && may_be_short(plan, simulation->steps()))
       outcome.end("interrupted", exit_interrupted, "asked to stop by a signal");
   });
   if (!stages) return;
-  attempt(plan, outcome, [&] { stages->drain(); });  // a run that fails keeps its frames
-  attempt(plan, outcome, [&] { stages->note(outcome); });
+  attempt(plan, ranks, outcome, [&] { stages->drain(); });  // a run that fails keeps its frames
+  attempt(plan, ranks, outcome, [&] { stages->note(outcome); });
 }
 
 /// Finishes the folder after the summary, which stays true if an error occurs here.
@@ -175,19 +177,33 @@ void conclude(const Plan& plan, RunFolder& folder, Outcome& outcome) {
 }  // namespace
 
 int run(Plan& plan, const RunOptions& options) {
-  refuse_shortage(plan, options.directory);
-  if (options.resume) must_be_resumable(options.directory);
-  RunFolder folder(options.directory, !options.resume);
+  Ranks alone;
+  return run(plan, options, alone);
+}
+
+int run(Plan& plan, const RunOptions& options, Ranks& ranks) {
   const auto start = WallClock::now();
+  std::optional<RunFolder> folder;
+  std::optional<Checkpoint> resumed;
+  // All ranks read the checkpoint's head before the first one changes the folder.
+  ranks.together([&] {
+    refuse_shortage(plan, options.directory);
+    if (options.resume) must_be_resumable(options.directory);
+    if (ranks.is_first())
+      folder.emplace(options.directory, !options.resume);
+    else
+      folder.emplace(options.directory);
+    if (options.resume) resumed = find_checkpoint(plan, options.directory);
+  });
   std::unique_ptr<Simulation> simulation;
-  const std::optional<Checkpoint> resumed = prepare(folder, plan, options, simulation);
+  ranks.together([&] { prepare(*folder, plan, options, ranks, resumed, simulation); });
   Outcome outcome;
   outcome.setup_seconds = plan.setup_seconds + seconds_since(start);
   announce(plan, options);
-  solve(plan, options, folder, resumed, std::move(simulation), outcome);
+  solve(plan, options, *folder, resumed, std::move(simulation), ranks, outcome);
   if (outcome.exit_code == exit_interrupted)
     forget_stop();  // a request after the end is for the next run of a study
-  conclude(plan, folder, outcome);
+  if (ranks.is_first()) conclude(plan, *folder, outcome);
   return outcome.exit_code;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <plan/plan.hpp>
+#include <ranks/ranks.hpp>
 
 #include <filesystem>
 #include <string>
@@ -24,6 +25,9 @@ struct RunOptions {
 /// another run is writing there, an interrupted run could be resumed, the run to be resumed is
 /// missing or has changed, a file that the scene reads would be replaced, or a study is there.
 int run(Plan& plan, const RunOptions& options);
+/// Runs a plan together with other ranks, of which the first one writes the folder. All ranks get
+/// the same outcome.
+int run(Plan& plan, const RunOptions& options, Ranks& ranks);
 
 /// Asks a running simulation to stop after the present step; safe in a signal handler.
 void request_stop() noexcept;

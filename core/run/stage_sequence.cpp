@@ -9,15 +9,16 @@
 namespace hyperlattice {
 
 StageSequence::StageSequence(const Plan& plan, const RunOptions& options, RunFolder& folder,
-                             Simulation& simulation)
+                             Simulation& simulation, Ranks& ranks)
     : plan_(plan),
       options_(options),
       folder_(folder),
       simulation_(simulation),
-      recorder_(plan, simulation, folder, stopwatch_),
+      ranks_(ranks),
+      recorder_(plan, simulation, folder, stopwatch_, ranks),
       checkpoints_(
-          plan, folder, stopwatch_, options.checkpoint_every, [this] { recorder_.drain(); },
-          [this](Archive& state) { archive(state); }) {}
+          plan, folder, stopwatch_, ranks, options.checkpoint_every, [this] { recorder_.drain(); },
+          [&simulation] { simulation.gather(); }, [this](Archive& state) { archive(state); }) {}
 
 void StageSequence::archive(Archive& archive) {
   simulation_.archive(archive);
@@ -29,13 +30,14 @@ void StageSequence::archive(Archive& archive) {
 
 void StageSequence::begin(const std::optional<Checkpoint>& resumed) {
   if (resumed) read_checkpoint(*resumed, [this](Archive& state) { archive(state); });
-  recorder_.begin(options_.quiet);
+  recorder_.begin(options_.quiet || !ranks_.is_first());
 }
 
 void StageSequence::solve() {
   stopwatch_.start();
   while (stages_done_ < plan_.stages.size()) {
-    if (stop_requested()) return checkpoints_.save(simulation_.steps());
+    ranks_.meet(Ranks::Meeting::stage);
+    if (must_stop()) return checkpoints_.save(simulation_.steps());
     try {
       solve_stage(plan_.stages[stages_done_]);
     } catch (...) {
@@ -43,10 +45,16 @@ void StageSequence::solve() {
       throw;
     }
     stopwatch_.lap();
-    if (stop_requested()) return;
+    if (must_stop()) return;
     ++stages_done_;
     stage_steps_ = 0;
   }
+}
+
+/// Returns whether all ranks have agreed to stop.
+bool StageSequence::must_stop() {
+  if (stop_requested()) ranks_.wish(Wish::stop);
+  return ranks_.agreed(Wish::stop);
 }
 
 void StageSequence::solve_stage(const PlannedStage& stage) {
@@ -68,9 +76,9 @@ void StageSequence::solve_stage(const PlannedStage& stage) {
                                 const std::vector<double>& heights) {
     write_motion(motion, heights);
   };
-  hooks.must_stop = [] { return stop_requested(); };
+  hooks.must_stop = [this] { return must_stop(); };
   StageCalls(*plan_.model, simulation_, stage, plan_.threads, std::move(hooks), stage_steps_).run();
-  if (stop_requested()) {
+  if (must_stop()) {
     if (!resumes) return;
     recorder_.observe_once();
     checkpoints_.save(simulation_.steps());
@@ -81,6 +89,7 @@ void StageSequence::solve_stage(const PlannedStage& stage) {
 
 void StageSequence::write_motion(const std::vector<double>& motion,
                                  const std::vector<double>& heights) {
+  if (!ranks_.is_first()) return;
   folder_.claim(failing_motion_file, false);
   write_failing_motion(options_.directory, plan_.model->body, motion, heights);
   spdlog::info("how the body moves is in {}", (options_.directory / failing_motion_file).string());

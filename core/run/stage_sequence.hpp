@@ -13,7 +13,7 @@ namespace hyperlattice {
 class StageSequence {
  public:
   StageSequence(const Plan& plan, const RunOptions& options, RunFolder& folder,
-                Simulation& simulation);
+                Simulation& simulation, Ranks& ranks);
   StageSequence(const StageSequence&) = delete;
   StageSequence& operator=(const StageSequence&) = delete;
 
@@ -36,12 +36,14 @@ class StageSequence {
 
  private:
   void solve_stage(const PlannedStage& stage);
+  bool must_stop();
   void write_motion(const std::vector<double>& motion, const std::vector<double>& heights);
 
   const Plan& plan_;
   const RunOptions& options_;
   RunFolder& folder_;
   Simulation& simulation_;
+  Ranks& ranks_;
   Stopwatch stopwatch_;
   Recorder recorder_;
   Checkpoints checkpoints_;

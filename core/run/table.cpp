@@ -85,6 +85,7 @@ void Table::row(std::span<const double> values) {
 }
 
 void Table::lines(std::string_view text) {
+  if (!descriptor_) return;
   std::size_t written = 0;
   int error = 0;
   while (written < text.size() && error == 0) {

@@ -30,6 +30,9 @@ class Table {
   /// Continues a file that is open for appending and holds `bytes` bytes.
   Table(std::filesystem::path file, Descriptor descriptor, std::uint64_t bytes);
 
+  /// Returns a table that keeps nothing: of a rank that does not write.
+  static Table nowhere() { return {}; }
+
   void row(std::span<const double> values);
   void lines(std::string_view whole_lines);  ///< each ends with a newline
   void cut(std::uint64_t bytes);             ///< removes all but the first bytes
@@ -41,6 +44,7 @@ class Table {
   const std::filesystem::path& file() const { return file_; }
 
  private:
+  Table() = default;
   void read(std::uint64_t bytes);
   [[noreturn]] void fail(int error) const;
 

@@ -82,7 +82,7 @@ const OptionSet& common_options(Family family) {
       option_set<CommonSchema<Family::lattices>>(), option_set<CommonSchema<Family::materials>>(),
       option_set<CommonSchema<Family::failures>>(), option_set<CommonSchema<Family::loads>>(),
       option_set<CommonSchema<Family::solvers>>(),  option_set<CommonSchema<Family::writers>>(),
-      option_set<CommonSchema<Family::probes>>()};
+      option_set<CommonSchema<Family::probes>>(),   option_set<CommonSchema<Family::engines>>()};
   return sets[static_cast<std::size_t>(family)];
 }
 

@@ -215,6 +215,7 @@ std::string scene_schema(const std::vector<const Component*>& components) {
                                                   {"not", {{"enum", built_in_region_names()}}}})}};
   for (const Component* component : components) {
     const Family family = component->info.family;
+    if (family == Family::engines) continue;  // no scene names one
     definitions[component->type()] = component_schema(component->info);
     of_family[static_cast<std::size_t>(family)].push_back(component->type());
     if (family != Family::failures && family != Family::lattices)

@@ -16,7 +16,12 @@ namespace {
 
 constexpr std::size_t most_stages = 10'000;
 
-const std::vector<std::string> all_families(std::begin(family_names), std::end(family_names));
+/// The families of a scene. Engines are not among them: the launcher decides about them.
+const std::vector<std::string> all_families = [] {
+  std::vector<std::string> names(std::begin(family_names), std::end(family_names));
+  std::erase(names, family_name(Family::engines));
+  return names;
+}();
 
 void take_common(const CommonOptions& common, Stage& stage) {
   stage.name = common.name.value_or("");
@@ -180,7 +185,7 @@ std::optional<Family> StageReader::read_family(const Json& given, const std::str
     return std::nullopt;
   }
   const std::string text = type->get<std::string>();
-  if (const auto family = family_of(text)) return family;
+  if (const auto family = family_of(text); family && *family != Family::engines) return family;
   const std::string prefix = text.substr(0, text.find('.'));
   reading_.faults.add(member(pointer, "type"), shown(*type),
                       "a type of one of the families " +

@@ -86,6 +86,7 @@ struct Block {
     std::uint32_t row, neighbour;  ///< place in the kernel's AlarmRow
     std::int32_t site;
     bool softened = false;  ///< its integrity became 0; it stays
+    double energy = 0;      ///< lost with it, J
   };
   std::vector<Broken> broken;  ///< in this step, in the order of row, neighbour, site
   /// Particles beside springs above the alarm of their cohesive material, see DamageField.

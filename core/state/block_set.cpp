@@ -28,6 +28,31 @@ void visit(Archive& archive, FailureMemory& memory) {
   for (const Kept& kept : all) memory.emplace_hint(memory.end(), kept.key, kept.numbers);
 }
 
+/// What a step finds and the next evaluation does not.
+void visit_found(Archive& archive, Block& block) {
+  archive(block.broken);
+  archive(block.noted);
+}
+
+void visit_results(Archive& archive, Block& block) {
+  archive(block.damped_work);
+  archive(block.fracture_work);
+  archive(block.other_sums);
+  archive(block.sums);
+  archive(block.boundary_particles);
+  archive(block.held_force);
+  archive(block.contributions);
+}
+
+/// Returns whether a step may read or change what any block has.
+bool reads_all(const Model& model) {
+  const auto watches = [&](std::size_t l) { return !model.loads[l].watched.empty(); };
+  bool any = model.body.is_listed() || !model.cohesive.empty() ||
+             (!model.volumetric.empty() && model.springs.breakable);
+  for (std::size_t l = 0; l < model.loads.size(); ++l) any = any || watches(l);
+  return any;
+}
+
 void visit(Archive& archive, Block& block, int components) {
   for (int c = 0; c < components; ++c) {
     archive(block.displacement[c].bytes());
@@ -45,11 +70,22 @@ void visit(Archive& archive, Block& block, int components) {
 
 }  // namespace
 
-BlockSet::BlockSet(const Model& model, int threads)
+BlockSet::BlockSet(const Model& model, int threads, Ranks& ranks, int blocks)
     : model_(model),
-      layout_(make_layout(model, threads)),
+      layout_(make_layout(model, blocks)),
       blocks_(layout_->blocks.size()),
-      team_(threads) {
+      team_(threads),
+      ranks_(ranks) {
+  const auto count = static_cast<std::size_t>(ranks.count()),
+             rank = static_cast<std::size_t>(ranks.rank());
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    owners_.push_back(static_cast<int>(b * count / blocks_.size()));
+  const auto [first, last] =
+      std::equal_range(owners_.begin(), owners_.end(), static_cast<int>(rank));
+  first_mine_ = static_cast<std::size_t>(first - owners_.begin());
+  last_mine_ = static_cast<std::size_t>(last - owners_.begin());
+  if (count > 1) halo_.emplace(model, *layout_, owners_, ranks);
+  keeps_whole_ = reads_all(model);
   team_.for_own(blocks_.size(), [&](std::size_t b) { allocate(blocks_[b], b); });
   for (Block& block : blocks_) add_supports(block);
   for (const auto& [particle, velocity] : model.loads.start_velocities) {
@@ -161,7 +197,55 @@ void BlockSet::note_gone(Block& block, const AlarmRow& springs) const {
          springs.elongation[n], springs.row, springs.neighbour, springs.sites[n], true});
 }
 
+template <class Parts>
+void BlockSet::spread(const Parts& parts) {
+  for (Block& block : blocks_) {
+    const int owner = owners_[block.number];
+    Archive archive(
+        [&](void* data, std::size_t size) {
+          ranks_.spread(owner, {static_cast<std::byte*>(data), size});
+        },
+        owner != ranks_.rank());
+    parts(archive, block);
+  }
+}
+
+void BlockSet::gather() {
+  if (is_whole()) return;
+  ranks_.meet(Ranks::Meeting::state);
+  spread([&](Archive& archive, Block& block) { visit(archive, block, model_.degrees_of_freedom); });
+  is_whole_ = true;
+}
+
+void BlockSet::gather_results() {
+  if (ranks_.is_alone()) return;
+  ranks_.meet(Ranks::Meeting::results);
+  spread(visit_results);
+}
+
+void BlockSet::gather_broken() { spread(visit_found); }
+
+std::int64_t BlockSet::exchange_ranks() {
+  std::int64_t broken = 0;
+  if (ranks_.is_alone()) return broken;
+  for (std::size_t b = first_mine_; b < last_mine_; ++b)
+    broken += static_cast<std::int64_t>(blocks_[b].broken.size());
+  broken = ranks_.meet(Ranks::Meeting::step, broken);
+  is_whole_ = false;
+  if (!keeps_whole_) {
+    halo_->exchange(blocks_, ranks_);
+    return broken;
+  }
+  spread([&](Archive& archive, Block& block) {
+    visit(archive, block, model_.degrees_of_freedom);
+    visit_found(archive, block);
+  });
+  is_whole_ = true;
+  return broken;
+}
+
 void BlockSet::archive(Archive& archive) {
+  if (archive.restores()) is_whole_ = true;
   archive.same(blocks_.size(), "the number of blocks");
   for (Block& block : blocks_) visit(archive, block, model_.degrees_of_freedom);
 }

@@ -4,12 +4,15 @@
 
 #include <model/model.hpp>
 #include <process/team.hpp>
+#include <ranks/ranks.hpp>
 #include <state/archive.hpp>
 #include <state/block.hpp>
+#include <state/halo.hpp>
 #include <state/layout.hpp>
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -27,11 +30,14 @@ inline LawNumbers read_numbers(const Layout::Memory& memory, std::uint32_t count
 
 class BlockSet {
  public:
-  BlockSet(const Model& model, int threads);
+  /// Stores the body in so many blocks at most, which the ranks share. Each rank has all blocks,
+  /// but only its own are up to date between steps; see gather().
+  BlockSet(const Model& model, int threads, Ranks& ranks, int blocks);
 
   const Model& model() const { return model_; }
   const Layout& layout() const { return *layout_; }
   Team& team() const { return team_; }
+  Ranks& ranks() const { return ranks_; }
 
   std::size_t size() const { return blocks_.size(); }
   Block& operator[](std::size_t number) { return blocks_[number]; }
@@ -54,6 +60,32 @@ class BlockSet {
     });
   }
 
+  /// Calls work(block), on the threads of this rank, for each block that the rank computes; for all
+  /// blocks while it acts alone.
+  template <class Work>
+  void for_mine(const Work& work) {
+    const bool all = ranks_.is_alone();
+    const std::size_t first = all ? 0 : first_mine_, last = all ? blocks_.size() : last_mine_;
+    team_.for_each(last - first, [&](std::size_t n) { work(blocks_[first + n]); });
+  }
+  bool is_mine(const Block& block) const {
+    return ranks_.is_alone() || (first_mine_ <= block.number && block.number < last_mine_);
+  }
+
+  /// Says that all blocks must be up to date before each step, in every rank.
+  void keep_whole() { keeps_whole_ = true; }
+  /// Returns whether all blocks are up to date.
+  bool is_whole() const { return ranks_.is_alone() || is_whole_; }
+  /// Brings all blocks up to date in every rank. All ranks must call it.
+  void gather();
+  /// Copies to every rank what the last evaluation found for rows and boundary particles.
+  void gather_results();
+  /// Meets the other ranks after each has moved its own blocks, and gets the rows of others that it
+  /// reads. Returns the largest number of springs that broke in a rank.
+  std::int64_t exchange_ranks();
+  /// Copies the breakages of this step to every rank.
+  void gather_broken();
+
   /// Copies into the block what it reads of other blocks and of its own state.
   void exchange(Block& block) const { layout_->exchange(blocks_, block); }
   /// Returns what the laws keep of a spring, or of its cross spring. The spring is named by its
@@ -72,6 +104,9 @@ class BlockSet {
   void archive(Archive& archive);
 
  private:
+  /// Copies parts of each block from the rank that computes it.
+  template <class Parts>
+  void spread(const Parts& parts);
   void allocate(Block& block, std::size_t number) const;
   void add_supports(Block& block) const;
 
@@ -79,6 +114,11 @@ class BlockSet {
   std::unique_ptr<Layout> layout_;
   std::vector<Block> blocks_;
   mutable Team team_;  // reading the state in parallel does not change it
+  Ranks& ranks_;
+  std::vector<int> owners_;  // rank of each block
+  std::size_t first_mine_ = 0, last_mine_ = 0;
+  std::optional<Halo> halo_;  // none: there are no other ranks
+  bool keeps_whole_ = false, is_whole_ = true;
 };
 
 }  // namespace hyperlattice

@@ -36,7 +36,7 @@ void Simulation::set_motion(const EquilibriumUpdate& to) {
 
 void Simulation::hold_time(double time) {
   if (state_->clock.is_held()) return;
-  state_->loads.leave_rest();
+  whole().loads.leave_rest();
   state_->loads.set_goals(time);
   state_->clock.hold(time);
 }
@@ -45,6 +45,7 @@ void Simulation::release_time() { state_->clock.release(); }
 void Simulation::halt() {
   EnergyAccount& energy = state_->energy;
   const double error = energy.balance().error;
+  gather();
   for (const Block& block : state_->blocks)
     for (int c = 0; c < state_->blocks.model().degrees_of_freedom; ++c) block.velocity[c].clear();
   state_->clock.rest();
@@ -52,6 +53,8 @@ void Simulation::halt() {
 }
 
 double Simulation::apply_equilibrium(const EquilibriumUpdate& to) {
+  state_->blocks.ranks().meet(Ranks::Meeting::state);
+  gather();
   const double error = to.settles ? state_->energy.balance().error : 0;
   if (to.time_step == 0)
     halt();  // finds the start of the balance; the work on the way from there is counted here
@@ -87,6 +90,7 @@ double Simulation::apply_equilibrium(const EquilibriumUpdate& to) {
 }
 
 double Simulation::overshoot(const EquilibriumUpdate& to) {
+  gather();
   const Clock clock = state_->clock;
   const OtherMotion motion(*this, to);
   state_->clock.jump(to.time, to.time_step);

@@ -3,6 +3,7 @@
 #include <state/lost_cells.hpp>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <tuple>
@@ -34,7 +35,13 @@ std::uint32_t number_of(const Block& block) { return static_cast<std::uint32_t>(
 
 }  // namespace
 
-void FailureRecord::collect(double step) {
+void FailureRecord::collect(double step, bool in_ranks) {
+  // The rank that found a breakage has all that its energy depends on.
+  for (Block& block : blocks_)
+    for (Block::Broken& broken : block.broken)
+      if (broken.spring.is_first && !broken.softened)
+        broken.energy = energy_of(block, broken, ends_of(block, broken), step);
+  if (in_ranks && !blocks_.is_whole()) blocks_.gather_broken();
   for (Block& block : blocks_) {
     // Damage ends springs before the kernel breaks others.
     if (!blocks_.model().cohesive.empty())
@@ -59,7 +66,7 @@ void FailureRecord::collect(double step) {
       note(breakage, ends_of(block, broken));
       energy_ += lose_cells(blocks_, breakage.a, breakage.neighbour, step);
       if (!pressures_.empty()) energy_ += pressures_.lose(breakage.a, breakage.b, step);
-      if (!broken.softened) energy_ += energy_of(breakages_.size() - 1, block, broken, step);
+      if (!broken.softened) energy_ += broken.energy;
     }
     block.broken.clear();
   }
@@ -98,13 +105,11 @@ FailureRecord::Ends FailureRecord::ends_of(const Block& block, const Block::Brok
 /// Returns the energy lost with a base spring and its cross springs, J. They pulled during the step
 /// that found them broken, so the lost energy includes half a step of that work: this keeps the
 /// scheme's balance exact to second order.
-double FailureRecord::energy_of(std::size_t index, const Block& block, const Block::Broken& broken,
+double FailureRecord::energy_of(const Block& block, const Block::Broken& broken, const Ends& where,
                                 double step) const {
   const Model& model = blocks_.model();
-  const Breakage& breakage = breakages_[index];
-  const Ends& where = ends_[index];
   const SpringProperties properties =
-      model.spring_properties(breakage.a, breakage.b, breakage.neighbour);
+      model.spring_properties(broken.spring.a, broken.spring.b, broken.spring.neighbour);
   const End a = end_of(blocks_[where.block_a], where.a, model.degrees_of_freedom, step),
             b = end_of(blocks_[where.block_b], where.b, model.degrees_of_freedom, step);
 
@@ -160,7 +165,12 @@ double FailureRecord::elongation_now(std::size_t index) const {
 
 std::uint64_t FailureRecord::open() {
   arrange();
-  return count_open(by_place_) + count_open(std::span(ends_).subspan(by_place_.size()));
+  std::array<std::int64_t, 1> open{static_cast<std::int64_t>(
+      count_open(by_place_) + count_open(std::span(ends_).subspan(by_place_.size())))};
+  Ranks& ranks = blocks_.ranks();
+  ranks.meet(Ranks::Meeting::failures);
+  ranks.sum(open);
+  return static_cast<std::uint64_t>(open[0]);
 }
 
 /// Arranges failures by their places: a count then reads the state in the order of the memory. The
@@ -184,7 +194,10 @@ std::uint64_t FailureRecord::count_open(std::span<const Ends> failures) const {
     const std::size_t first = number * piece;
     std::uint64_t here = 0;
     for (const Ends& ends : failures.subspan(first, std::min(piece, failures.size() - first)))
-      here += ends.counts && growth_now(ends).of_square > 0 ? 1 : 0;
+      here +=
+          ends.counts && blocks_.is_mine(blocks_[ends.block_a]) && growth_now(ends).of_square > 0
+              ? 1
+              : 0;
     open += here;
   });
   return open;

@@ -33,8 +33,8 @@ class FailureRecord {
 
   /// Takes the breakages of a step of length `step`, s, from the blocks. The record does not depend
   /// on the number of threads: blocks are in the order of their particles, and each block's list is
-  /// in the order of its rows.
-  void collect(double step);
+  /// in the order of its rows. `in_ranks`: some were found by a rank in its own blocks only.
+  void collect(double step, bool in_ranks = false);
 
   /// Returns the failures in the order of their steps.
   const std::vector<Breakage>& breakages() const { return breakages_; }
@@ -60,8 +60,9 @@ class FailureRecord {
   Ends ends_of(const Block& block, const Block::Broken& broken) const;
   Growth growth_now(const Ends& where) const;
   void arrange();
+  /// Returns the number of open failures of this rank's blocks.
   std::uint64_t count_open(std::span<const Ends> failures) const;
-  double energy_of(std::size_t breakage, const Block& block, const Block::Broken& broken,
+  double energy_of(const Block& block, const Block::Broken& broken, const Ends& where,
                    double step) const;
 
   BlockSet& blocks_;

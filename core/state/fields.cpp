@@ -8,6 +8,7 @@ namespace hyperlattice {
 void Simulation::copy(const Quantity& quantity, std::vector<double>& values) const {
   const std::uint64_t all = state_->blocks.model().body.particles;
   values.resize(all * static_cast<std::size_t>(quantity.components));
+  gather();
   const auto parts = static_cast<std::uint64_t>(state_->blocks.team().count());
   state_->blocks.team().for_each(parts, [&](std::uint64_t part) {
     const Particle first = all * part / parts;
@@ -34,6 +35,7 @@ void Simulation::copy(const Quantity& quantity, Particle first, std::uint64_t co
 }
 
 void Simulation::set(const Quantity& quantity, const std::vector<double>& values) {
+  gather();
   const auto components = static_cast<std::size_t>(quantity.components);
   state_->blocks.for_runs(
       [&](const Block& block, std::uint64_t place, Particle first, std::uint64_t count) {
@@ -51,6 +53,7 @@ void Simulation::displacements(std::vector<double>& xyz) const { copy({false, 0,
 void Simulation::displacements(std::vector<double>& xyz, Particle first,
                                std::uint64_t count) const {
   xyz.resize(3 * count);
+  gather();
   copy({false, 0, 3}, first, count, xyz.data());
 }
 
@@ -67,7 +70,7 @@ void Simulation::height_rates(std::vector<double>& values) const {
 
 void Simulation::alive(std::vector<std::uint16_t>& bits) const {
   bits.resize(state_->blocks.model().body.particles);
-  state_->blocks.for_runs(
+  whole().blocks.for_runs(
       [&](const Block& block, std::uint64_t place, Particle first, std::uint64_t count) {
         std::copy_n(block.alive.get() + place, count,
                     bits.begin() + static_cast<std::ptrdiff_t>(first));
@@ -76,13 +79,13 @@ void Simulation::alive(std::vector<std::uint16_t>& bits) const {
 
 Layout::Memory Simulation::law_memory(Particle particle, std::uint32_t neighbour,
                                       bool cross) const {
-  const BlockSet& blocks = state_->blocks;
+  const BlockSet& blocks = whole().blocks;
   const Place place = blocks.layout().place(particle);
   return blocks.layout().memory(blocks[place.block], place.row, neighbour, place.site, cross);
 }
 
 void Simulation::for_springs_of_list(const std::function<void(const SpringMemory&)>& visit) const {
-  const BlockSet& blocks = state_->blocks;
+  const BlockSet& blocks = whole().blocks;
   const bool has_cross = blocks.model().springs.choice.membrane != KernelChoice::Membrane::none;
   for (const Block& block : blocks)
     blocks.layout().for_springs(block, [&](const SpringPlace& spring) {

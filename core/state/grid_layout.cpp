@@ -255,23 +255,39 @@ void GridLayout::start_row(const Block& block, std::uint32_t r, Site site) const
   }
 }
 
+std::vector<std::int32_t> GridLayout::ghost_planes(std::size_t block) const {
+  const std::int32_t first = planes_[block].first, end = first + planes_[block].count;
+  std::vector<std::int32_t> planes;
+  for (std::int32_t distance = 1; distance <= model_.body.reach; ++distance)
+    for (const std::int32_t k : {first - distance, end + distance - 1})
+      if (k >= 0 && k < model_.body.grid.sites[2]) planes.push_back(k);
+  return planes;
+}
+
 /// Fills the ghost planes from the blocks that own them.
 void GridLayout::exchange(const std::vector<Block>& all, Block& block) const {
-  const std::int32_t first = planes_[block.number].first, end = first + planes_[block.number].count;
-  for (std::int32_t distance = 1; distance <= model_.body.reach; ++distance)
-    for (const std::int32_t k : {first - distance, end + distance - 1}) {
-      if (k < 0 || k >= model_.body.grid.sites[2]) continue;
-      const Block& owner = all[block_of_plane(k)];
-      const std::uint64_t from = plane(owner.number, k).begin;
-      const PlaneRange to = plane(block.number, k);
-      const std::uint64_t count = to.end - to.begin;
-      for (int c = 0; c < model_.degrees_of_freedom; ++c)
-        block.displacement[c].copy(owner.displacement[c], from, count, to.begin);
-      for (int c = 0; model_.springs.asks_rate && c < model_.degrees_of_freedom; ++c)
-        block.velocity[c].copy(owner.velocity[c], from, count, to.begin);
-      if ((model_.springs.breakable || model_.springs.softens) && k < first)
-        std::copy_n(owner.alive.get() + from, count, block.alive.get() + to.begin);
-    }
+  for (const std::int32_t k : ghost_planes(block.number)) {
+    const Block& owner = all[block_of_plane(k)];
+    const std::uint64_t from = plane(owner.number, k).begin;
+    const PlaneRange to = plane(block.number, k);
+    const std::uint64_t count = to.end - to.begin;
+    for (int c = 0; c < model_.degrees_of_freedom; ++c)
+      block.displacement[c].copy(owner.displacement[c], from, count, to.begin);
+    for (int c = 0; model_.springs.asks_rate && c < model_.degrees_of_freedom; ++c)
+      block.velocity[c].copy(owner.velocity[c], from, count, to.begin);
+    if ((model_.springs.breakable || model_.springs.softens) && k < planes_[block.number].first)
+      std::copy_n(owner.alive.get() + from, count, block.alive.get() + to.begin);
+  }
+}
+
+std::vector<Layout::Range> GridLayout::borrowed(std::size_t block) const {
+  std::vector<Range> ranges;
+  for (const std::int32_t k : ghost_planes(block)) {
+    const std::size_t owner = block_of_plane(k);
+    const PlaneRange rows = plane(owner, k);
+    ranges.push_back({owner, rows.begin, rows.end});
+  }
+  return ranges;
 }
 
 void GridLayout::describe(const Block& block, KernelRequest& request) const {

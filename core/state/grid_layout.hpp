@@ -31,6 +31,7 @@ class GridLayout final : public Layout {
   std::uint64_t alive_bits(const Block& block, std::uint64_t index) const override;
   void fill(Block& block) const override;
   void exchange(const std::vector<Block>& all, Block& block) const override;
+  std::vector<Range> borrowed(std::size_t block) const override;
   void describe(const Block& block, KernelRequest& request) const override;
   double state_bytes() const override;
   std::size_t scratch_numbers() const override;
@@ -46,6 +47,8 @@ class GridLayout final : public Layout {
     std::uint64_t begin = 0, end = 0;
   };
 
+  /// Returns the ghost planes of a block that are in the body.
+  std::vector<std::int32_t> ghost_planes(std::size_t block) const;
   std::int32_t law_of_row(std::int32_t material, std::int32_t j, std::int32_t k) const;
   BlockLayout make_block(Planes planes, std::uint64_t padding);
   /// Returns how many places a row of so many sites takes, with the padding.

@@ -4,6 +4,7 @@
 namespace hyperlattice {
 
 void Simulation::archive(Archive& archive) {
+  if (!archive.restores()) gather();
   state_->blocks.archive(archive);
   state_->sweeps.archive(archive);
   state_->clock.archive(archive);

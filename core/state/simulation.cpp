@@ -5,19 +5,58 @@
 #include <state/state.hpp>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 namespace hyperlattice {
 
+namespace {
+
+/// This process, for simulations that need to know of no other.
+Ranks& this_process() {
+  static Ranks alone;
+  return alone;
+}
+
+/// Finds the largest square of a speed of all ranks and the lowest particle that has it, and the
+/// lowest particle without a finite speed.
+void agree_on_fastest(Ranks& ranks, double& square, Particle& fastest, Particle& bad) {
+  ranks.meet(Ranks::Meeting::speed);
+  // Bits of numbers that are not negative have the order of the numbers.
+  const auto bits = std::bit_cast<std::int64_t>(square);
+  const auto lowest = [](Particle particle) { return -static_cast<std::int64_t>(particle); };
+  constexpr std::int64_t none = std::numeric_limits<std::int64_t>::min();
+  std::array<std::int64_t, 2> all{bits, bad == Body::no_particle ? none : lowest(bad)};
+  ranks.largest(all);
+  std::array<std::int64_t, 1> first{bits == all[0] ? lowest(fastest) : none};
+  ranks.largest(first);
+  square = std::bit_cast<double>(all[0]);
+  fastest = static_cast<Particle>(-first[0]);
+  bad = all[1] == none ? Body::no_particle : static_cast<Particle>(-all[1]);
+}
+
+}  // namespace
+
 Simulation::Simulation(const Model& model, int threads)
-    : state_(std::make_unique<State>(model, threads)) {}
+    : Simulation(model, threads, this_process(), threads) {}
+Simulation::Simulation(const Model& model, int threads, Ranks& ranks, int blocks)
+    : state_(std::make_unique<State>(model, threads, ranks, blocks)) {}
 Simulation::~Simulation() = default;
 
 void Simulation::set_damping(double alpha, double rate) { state_->sweeps.set_damping(alpha, rate); }
 void Simulation::set_local_steps(double time_step, std::int64_t parts) {
+  if (parts > 1) state_->blocks.keep_whole();
   state_->local.start(time_step, parts);
 }
+/// Returns the state with all blocks up to date.
+Simulation::State& Simulation::whole() const {
+  state_->blocks.gather();
+  return *state_;
+}
+void Simulation::gather() const { whole(); }
+
 void Simulation::step(double time_step) { state_->step(time_step); }
 void Simulation::set_time(double time) { state_->clock.set(time); }
 double Simulation::time() const { return state_->clock.time(); }
@@ -27,7 +66,7 @@ void Simulation::in_parallel(std::size_t size, const std::function<void(std::siz
   state_->blocks.team().for_each(size, work);
 }
 
-double Simulation::kinetic() const { return state_->kinetic.now(); }
+double Simulation::kinetic() const { return whole().kinetic.now(); }
 EnergyBalance Simulation::balance() { return state_->energy.balance(); }
 void Simulation::reset_energy_balance() { state_->energy.clear_error(); }
 std::vector<double> Simulation::injected_by_load() { return state_->energy.injected_by_load(); }
@@ -40,21 +79,21 @@ std::vector<Vec3> Simulation::force_on_load() {
 }
 
 std::vector<Vec3> Simulation::external_forces(const ForcesOnAll& internal) const {
-  const State& state = *state_;
+  const State& state = whole();
   state_->sweeps.set_loads(Sweep::present(state.clock.last_step()));
   return hyperlattice::external_forces(state.blocks, state.clock, state.loads, internal);
 }
 
 const std::vector<Breakage>& Simulation::breakages() const { return state_->failures.breakages(); }
 double Simulation::elongation_now(std::size_t breakage) const {
-  return state_->failures.elongation_now(breakage);
+  return whole().failures.elongation_now(breakage);
 }
 std::uint64_t Simulation::broken_open() const { return state_->failures.open(); }
 std::uint64_t Simulation::broken() const { return state_->failures.springs(); }
 
 std::vector<WeakenedSpring> Simulation::weakened_springs() const {
   std::vector<WeakenedSpring> weakened;
-  if (state_->blocks.model().springs.softens) weakened = state_->law_memory.weakened();
+  if (state_->blocks.model().springs.softens) weakened = whole().law_memory.weakened();
   const std::vector<SoftSpring> soft = soft_springs();
   weakened.reserve(weakened.size() + soft.size());
   for (const SoftSpring& spring : soft)
@@ -90,25 +129,23 @@ CrackSurface Simulation::crack_surface() const {
 }
 
 void Simulation::law_field(std::string_view name, std::vector<double>& values) const {
-  state_->law_memory.field(name, values);
+  whole().law_memory.field(name, values);
 }
 
 Particle Simulation::fastest(double& speed, bool& finite) const {
+  BlockSet& blocks = state_->blocks;
   double largest = -1;
-  Particle found = 0;
-  finite = true;
-  const int components = state_->blocks.model().degrees_of_freedom;
-  state_->blocks.for_runs(
+  Particle found = Body::no_particle, bad = Body::no_particle;
+  const int components = blocks.model().degrees_of_freedom;
+  blocks.for_runs(
       [&](const Block& block, std::uint64_t place, Particle first, std::uint64_t count) {
-        if (!finite) return;
+        if (bad != Body::no_particle || !blocks.is_mine(block)) return;
         for (std::uint64_t n = 0; n < count; ++n) {
           double square = 0;
           for (int c = 0; c < components; ++c)
             square += block.velocity[c][place + n] * block.velocity[c][place + n];
           if (!std::isfinite(square)) {
-            finite = false;
-            found = first + n;
-            largest = square;
+            bad = first + n;
             return;
           }
           if (square > largest) {
@@ -117,13 +154,15 @@ Particle Simulation::fastest(double& speed, bool& finite) const {
           }
         }
       });
-  speed = std::sqrt(largest);
-  return found;
+  if (!blocks.ranks().is_alone()) agree_on_fastest(blocks.ranks(), largest, found, bad);
+  finite = bad == Body::no_particle;
+  speed = finite ? std::sqrt(largest) : std::numeric_limits<double>::quiet_NaN();
+  return finite ? found : bad;
 }
 
 double Simulation::farthest() const {
   double largest = 0;
-  state_->blocks.for_runs(
+  whole().blocks.for_runs(
       [&](const Block& block, std::uint64_t place, Particle, std::uint64_t count) {
         for (std::uint64_t n = place; n < place + count; ++n)
           largest = std::max(largest, norm({block.displacement[0][n], block.displacement[1][n],
@@ -138,7 +177,7 @@ std::uint64_t Simulation::hash() const {
     hash = (hash ^ bits) * 1099511628211u;
   };  // FNV-1a, a word at a time
   const int components = state_->blocks.model().degrees_of_freedom;
-  state_->blocks.for_runs(
+  whole().blocks.for_runs(
       [&](const Block& block, std::uint64_t place, Particle, std::uint64_t count) {
         for (std::uint64_t n = place; n < place + count; ++n) {
           for (int c = 0; c < components; ++c) {

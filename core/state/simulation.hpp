@@ -2,6 +2,7 @@
 #pragma once
 
 #include <model/model.hpp>
+#include <ranks/ranks.hpp>
 #include <state/breakage.hpp>
 #include <state/crack_surface.hpp>
 #include <state/energy_balance.hpp>
@@ -26,10 +27,13 @@ struct SoftCell;
 struct SoftParticle;
 struct SoftSpring;
 
-/// The moving body. Results have the same bits for any number of threads.
+/// The moving body. Results have the same bits for any number of threads and ranks. All ranks must
+/// call the same functions in the same order, except while one acts alone (Ranks::Solo).
 class Simulation {
  public:
   Simulation(const Model& model, int threads);
+  /// Stores the body in so many blocks, at most one per plane of a grid, which the ranks share.
+  Simulation(const Model& model, int threads, Ranks& ranks, int blocks);
   ~Simulation();
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
@@ -72,6 +76,9 @@ class Simulation {
   double last_step() const;
   /// Calls work(n) for each n below `size` on the threads of the run, as Team::for_each does.
   void in_parallel(std::size_t size, const std::function<void(std::size_t)>& work) const;
+
+  /// Brings the whole state up to date in every rank.
+  void gather() const;
 
   /// Returns the kinetic energy, J, of the velocities v(n-1/2). Costs little.
   double kinetic() const;
@@ -165,6 +172,7 @@ class Simulation {
 
  private:
   struct State;
+  State& whole() const;
   struct Quantity {
     bool velocity;
     int first, components;

@@ -37,7 +37,8 @@ struct Simulation::State {
   KineticEnergy kinetic{blocks};
   ForceSums force_sums{blocks, clock, loads, pressures, damage, sweeps};
 
-  State(const Model& model, int threads) : blocks(model, threads) {}
+  State(const Model& model, int threads, Ranks& ranks, int count)
+      : blocks(model, threads, ranks, count) {}
 
   /// Advances the body by a step of this length, s.
   void step(double length);

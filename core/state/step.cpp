@@ -13,8 +13,8 @@ namespace hyperlattice {
 
 void Simulation::State::step(double length) {
   if (length != clock.last_step()) change_step(length);
-  sweeps.step({clock.last_step() / 2, length / 2, length, 0});
-  failures.collect(length);
+  const std::int64_t elsewhere = sweeps.step({clock.last_step() / 2, length / 2, length, 0});
+  failures.collect(length, elsewhere > 0);
   clock.advance(length);
 }
 

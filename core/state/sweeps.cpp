@@ -24,23 +24,24 @@ void Sweeps::set_damping(double alpha, double rate) {
   damping_rate_ = rate;
 }
 
-void Sweeps::step(const Sweep& sweep) {
+std::int64_t Sweeps::step(const Sweep& sweep) {
   loads_.prepare(sweep);
   loads_.check_factors();
   if (!damage_.empty()) damage_.update(2 * sweep.after);
   read_motion();
   if (!pressures_.empty()) pressures_.update();
   const LocalForces::Taken taken = local_steps(sweep, true);
-  blocks_.team().for_each(blocks_.size(), [&](std::size_t b) {
-    Block& block = blocks_[b];
+  blocks_.for_mine([&](Block& block) {
     if (local_.empty()) loads_.set_supports(block, sweep);
     if (!damage_.empty()) damage_.watch_shortening(block);
     run_kernel(model_.springs.kernels().step, block, sweep.before, sweep.after, false);
     count_work(block, sweep.before + sweep.after);
   });
   loads_.check_answers();
+  const std::int64_t broken = blocks_.exchange_ranks();
   loads_.update_memory();
   if (!damage_.empty()) damage_.finish();
+  return broken;
 }
 
 RowSums Sweeps::measure(const Sweep& sweep) {
@@ -49,10 +50,11 @@ RowSums Sweeps::measure(const Sweep& sweep) {
   read_motion();
   if (!pressures_.empty()) pressures_.update();
   const LocalForces::Taken taken = local_steps(sweep, false);
-  blocks_.team().for_each(blocks_.size(), [&](std::size_t b) {
-    if (local_.empty()) loads_.set_supports(blocks_[b], sweep);
-    run_kernel(model_.springs.kernels().measure, blocks_[b], sweep.measured, 0, true);
+  blocks_.for_mine([&](Block& block) {
+    if (local_.empty()) loads_.set_supports(block, sweep);
+    run_kernel(model_.springs.kernels().measure, block, sweep.measured, 0, true);
   });
+  blocks_.gather_results();
   RowSums total;
   for (const Block& block : blocks_)
     for (std::size_t r = block.layout->first_own; r < block.layout->last_own; ++r) {
@@ -98,7 +100,7 @@ void Sweeps::check_loads() const {
 /// Copies ghost planes, and lets loads see the motion of the particles that they watch.
 void Sweeps::read_motion() {
   blocks_.team().for_each(blocks_.size(), [&](std::size_t b) {
-    blocks_.exchange(blocks_[b]);
+    if (blocks_.is_mine(blocks_[b]) || blocks_.is_whole()) blocks_.exchange(blocks_[b]);
     loads_.watch(blocks_[b]);
   });
   loads_.prepare_answers();

@@ -18,9 +18,10 @@ class Sweeps {
 
   /// Sets the damping: `alpha` of local damping and the rate of damping in proportion to mass, 1/s.
   void set_damping(double alpha, double rate);
-  /// Advances all blocks by a step and counts the work of the loads. Throws RunError if a load is
-  /// not a number.
-  void step(const Sweep& sweep);
+  /// Advances all blocks by a step and counts the work of the loads. Returns the largest number of
+  /// springs that broke in a rank; 0 if there is one rank. Throws RunError if a load is not a
+  /// number.
+  std::int64_t step(const Sweep& sweep);
   /// Returns the sums of the present state, in the order of the rows for any number of blocks.
   /// Changes nothing but the results in rows and boundary particles.
   RowSums measure(const Sweep& sweep);

@@ -12,6 +12,7 @@
 //   HYPERLATTICE_PLUGIN("1.0") { plugin.add<Blast>(); }
 #pragma once
 
+#include <hyperlattice/engine.hpp>
 #include <hyperlattice/failure.hpp>
 #include <hyperlattice/kernel_request.hpp>
 #include <hyperlattice/lattice.hpp>
@@ -26,7 +27,7 @@
 /// Raise this number if the meaning of anything in these headers changes; changes of layout are
 /// detected without it.
 #ifndef HYPERLATTICE_INTERFACE_VERSION
-#define HYPERLATTICE_INTERFACE_VERSION 3
+#define HYPERLATTICE_INTERFACE_VERSION 4
 #endif
 
 // clang-format off
@@ -121,7 +122,11 @@
           use_field, get_cut_faces)                                                                                                                   \
   CROSSES(WriterFunctions, begin, frame, end, memory)                                                                                                 \
   CROSSES(ColumnSink, self, receive)                                                                                                                  \
-  CROSSES(ProbeFunctions, begin, sample)
+  CROSSES(ProbeFunctions, begin, sample)                                                                                                              \
+  CROSSES(EngineFacts, rank, ranks, node_ranks)                                                                                                       \
+  CROSSES(OutgoingBytes, rank, bytes)                                                                                                                 \
+  CROSSES(IncomingBytes, rank, bytes)                                                                                                                 \
+  CROSSES(EngineFunctions, join, exchange, largest, sum, spread, abort)
 // clang-format on
 
 namespace hyperlattice {

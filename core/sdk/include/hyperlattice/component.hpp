@@ -24,10 +24,11 @@ enum class Family : std::uint32_t {
   loads,
   solvers,
   writers,
-  probes
+  probes,
+  engines
 };
 inline constexpr std::string_view family_names[] = {"lattices", "materials", "failures", "loads",
-                                                    "solvers",  "writers",   "probes"};
+                                                    "solvers",  "writers",   "probes",   "engines"};
 
 /// A component as the core sees it: its declaration, and tables of functions.
 struct ComponentInfo {
@@ -58,7 +59,7 @@ class Registrar {
       : self_(self), receive_(receive) {}
 
   /// Registers a component class of any family (see lattice.hpp, material.hpp, failure.hpp,
-  /// load.hpp, solver.hpp, output.hpp).
+  /// load.hpp, solver.hpp, output.hpp, engine.hpp).
   template <class Component>
   void add();
 
