@@ -2,6 +2,7 @@
 // an interval.
 #pragma once
 
+#include <ranks/ranks.hpp>
 #include <run/checkpoint.hpp>
 #include <run/stopwatch.hpp>
 

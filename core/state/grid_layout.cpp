@@ -280,8 +280,8 @@ void GridLayout::exchange(const std::vector<Block>& all, Block& block) const {
   }
 }
 
-std::vector<Layout::Range> GridLayout::borrowed(std::size_t block) const {
-  std::vector<Range> ranges;
+std::vector<Layout::Borrowed> GridLayout::borrowed(std::size_t block) const {
+  std::vector<Borrowed> ranges;
   for (const std::int32_t k : ghost_planes(block)) {
     const std::size_t owner = block_of_plane(k);
     const PlaneRange rows = plane(owner, k);

@@ -13,14 +13,14 @@ Halo::Halo(const Model& model, const Layout& layout, const std::vector<int>& own
   // The energy of a broken spring needs the velocities of both its ends.
   has_velocities_ = model.springs.asks_rate || has_springs_;
   for (std::size_t block = 0; block < owners.size(); ++block)
-    for (const Layout::Range& range : layout.borrowed(block)) {
+    for (const Layout::Borrowed& range : layout.borrowed(block)) {
       const int from = owners[range.block], to = owners[block];
       if (from == to) continue;
       if (from == ranks.rank()) peers_[to].sent.push_back(range);
       if (to == ranks.rank()) peers_[from].received.push_back(range);
     }
   for (auto& [rank, peer] : peers_) {
-    for (std::vector<Layout::Range>* ranges : {&peer.sent, &peer.received}) {
+    for (std::vector<Layout::Borrowed>* ranges : {&peer.sent, &peer.received}) {
       std::sort(ranges->begin(), ranges->end());
       ranges->erase(std::unique(ranges->begin(), ranges->end()), ranges->end());
     }
@@ -29,11 +29,11 @@ Halo::Halo(const Model& model, const Layout& layout, const std::vector<int>& own
   }
 }
 
-std::size_t Halo::size_of(const std::vector<Layout::Range>& ranges) const {
+std::size_t Halo::size_of(const std::vector<Layout::Borrowed>& ranges) const {
   const std::size_t numbers =
       static_cast<std::size_t>(components_) * (has_velocities_ ? 2 : 1) * number_;
   std::size_t size = 0;
-  for (const Layout::Range& range : ranges)
+  for (const Layout::Borrowed& range : ranges)
     size += (range.end - range.begin) * (numbers + (has_springs_ ? sizeof(std::uint16_t) : 0));
   return size;
 }
@@ -46,7 +46,7 @@ std::size_t Halo::bytes_sent() const {
 
 /// Calls visit(bytes) for the parts of a range of rows that are exchanged.
 template <class Visit>
-void Halo::for_bytes(const Block& block, const Layout::Range& range, const Visit& visit) const {
+void Halo::for_bytes(const Block& block, const Layout::Borrowed& range, const Visit& visit) const {
   const std::size_t count = range.end - range.begin;
   const auto numbers = [&](const Numbers& field) {
     visit(field.bytes().subspan(range.begin * number_, count * number_));
@@ -64,7 +64,7 @@ void Halo::exchange(std::vector<Block>& blocks, Ranks& ranks) {
   std::vector<IncomingBytes> in;
   for (auto& [rank, peer] : peers_) {
     std::byte* to = peer.out.data();
-    for (const Layout::Range& range : peer.sent)
+    for (const Layout::Borrowed& range : peer.sent)
       for_bytes(blocks[range.block], range, [&](std::span<const std::byte> bytes) {
         std::memcpy(to, bytes.data(), bytes.size());
         to += bytes.size();
@@ -75,7 +75,7 @@ void Halo::exchange(std::vector<Block>& blocks, Ranks& ranks) {
   ranks.exchange(out, in);
   for (auto& [rank, peer] : peers_) {
     const std::byte* from = peer.in.data();
-    for (const Layout::Range& range : peer.received)
+    for (const Layout::Borrowed& range : peer.received)
       for_bytes(blocks[range.block], range, [&](std::span<std::byte> bytes) {
         std::memcpy(bytes.data(), from, bytes.size());
         from += bytes.size();

@@ -24,12 +24,12 @@ class Halo {
  private:
   /// The ranges of one other rank, in the same order in both ranks.
   struct Peer {
-    std::vector<Layout::Range> sent, received;
+    std::vector<Layout::Borrowed> sent, received;
     std::vector<std::byte> out, in;
   };
   template <class Visit>
-  void for_bytes(const Block& block, const Layout::Range& range, const Visit& visit) const;
-  std::size_t size_of(const std::vector<Layout::Range>& ranges) const;
+  void for_bytes(const Block& block, const Layout::Borrowed& range, const Visit& visit) const;
+  std::size_t size_of(const std::vector<Layout::Borrowed>& ranges) const;
 
   int components_;
   bool has_velocities_, has_springs_;  ///< whether others need them

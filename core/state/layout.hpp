@@ -122,14 +122,14 @@ class Layout {
   /// Copies into the block what it reads of other blocks and of its own state at the step's start.
   virtual void exchange(const std::vector<Block>& all, Block& block) const = 0;
   /// Indices begin <= n < end in the arrays of a block.
-  struct Range {
+  struct Borrowed {
     std::size_t block = 0;
     std::uint64_t begin = 0, end = 0;
-    auto operator<=>(const Range&) const = default;
+    auto operator<=>(const Borrowed&) const = default;
   };
   /// Returns the ranges of other blocks that exchange() copies into a block. Empty for a listed
   /// body, which may read particles of any block.
-  virtual std::vector<Range> borrowed(std::size_t block) const = 0;
+  virtual std::vector<Borrowed> borrowed(std::size_t block) const = 0;
   /// Sets the members of a kernel's request that describe the arrangement.
   virtual void describe(const Block& block, KernelRequest& request) const = 0;
 
