@@ -17,6 +17,11 @@ OutsideError failed(const Component& engine, const char* function, std::string_v
 
 }  // namespace
 
+Ranks& Ranks::alone() {
+  static Ranks ranks;
+  return ranks;
+}
+
 Ranks::Ranks(const Component& engine) : engine_(&engine), made_(nullptr, engine.info.destroy) {
   PluginCall making(engine.info.name, engine.path.c_str(), "constructor");
   const std::unique_ptr<void, void (*)(void*)> options(engine.info.create_options(making.why()),

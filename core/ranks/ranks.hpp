@@ -34,6 +34,8 @@ class Ranks {
  public:
   /// This process alone.
   Ranks() = default;
+  /// Returns an object for all that needs to know of no other process.
+  static Ranks& alone();
   /// Joins the other processes through an engine. Throws OutsideError if it cannot.
   explicit Ranks(const Component& engine);
   /// A rank that ends by an error of which the others do not know ends them too.

@@ -30,6 +30,9 @@ inline LawNumbers read_numbers(const Layout::Memory& memory, std::uint32_t count
 
 class BlockSet {
  public:
+  /// Stores the body in a block for each thread.
+  BlockSet(const Model& model, int threads)
+      : BlockSet(model, threads, Ranks::alone(), threads) {}
   /// Stores the body in so many blocks at most, which the ranks share. Each rank has all blocks,
   /// but only its own are up to date between steps; see gather().
   BlockSet(const Model& model, int threads, Ranks& ranks, int blocks);

@@ -14,12 +14,6 @@ namespace hyperlattice {
 
 namespace {
 
-/// This process, for simulations that need to know of no other.
-Ranks& this_process() {
-  static Ranks alone;
-  return alone;
-}
-
 /// Finds the largest square of a speed of all ranks and the lowest particle that has it, and the
 /// lowest particle without a finite speed.
 void agree_on_fastest(Ranks& ranks, double& square, Particle& fastest, Particle& bad) {
@@ -40,7 +34,7 @@ void agree_on_fastest(Ranks& ranks, double& square, Particle& fastest, Particle&
 }  // namespace
 
 Simulation::Simulation(const Model& model, int threads)
-    : Simulation(model, threads, this_process(), threads) {}
+    : Simulation(model, threads, Ranks::alone(), threads) {}
 Simulation::Simulation(const Model& model, int threads, Ranks& ranks, int blocks)
     : state_(std::make_unique<State>(model, threads, ranks, blocks)) {}
 Simulation::~Simulation() = default;

@@ -1,0 +1,174 @@
+"""Compares runs on several ranks with a run in one process: same_bits.py PROGRAM CASE.
+
+All files must have the same bytes, except for times, and for the number of ranks in summary.json.
+"""
+import copy
+import json
+import os
+import sys
+import tempfile
+
+import launch
+
+LATTICE, MATERIAL = 0, 1
+BLOCK = {
+    "format": "hyperlattice/1",
+    "pipeline": [
+        {"type": "lattices.cubic", "spacing": 1e-3, "shape": {"box": {"low": [0, 0, 0], "high": [0.006, 0.007, 0.014]}}},
+        {"type": "materials.elastic", "young": "10 GPa", "poisson": 0.1, "density": 2500, "membrane": "I-m",
+         "failure": {"type": "failures.elongation", "limit": "1e-3 mm"}},
+        {"type": "loads.fixed", "on": "z_min"},
+        {"type": "loads.velocity", "on": "z_max", "value": [0.2, 0, 1], "rise": "5 us"},
+        {"type": "solvers.explicit", "end_time": "100 us"},
+        {"type": "writers.vtu", "every": "40 us"},
+        {"type": "probes.point", "name": "top", "position": [0.003, 0.003, 0.012], "every": "5 us"},
+        {"type": "probes.reaction", "on": "z_min", "every": "10 us"},
+    ],
+}
+SOFT = {"type": "materials.elastic", "young": "10 GPa", "poisson": 0.25, "density": 2500, "membrane": "none"}
+
+
+def breaking(scene):
+    """The block as it is."""
+
+
+def intact(scene):
+    del scene["pipeline"][MATERIAL]["failure"]
+
+
+def floats(scene):
+    scene["precision"] = "float"
+
+
+def three_dimensions(scene):
+    scene["pipeline"][MATERIAL] = {**SOFT, "failure": {"type": "failures.elongation", "limit": "1e-3 mm"}}
+
+
+def partial_cells(scene):
+    """Springs of mixtures, a body whose rows have gaps, and a volumetric energy."""
+    scene["pipeline"][LATTICE].update(boundary="partial_cells", shape={
+        "hollow_sphere": {"inner_radius": "2.3 mm", "outer_radius": "6.2 mm"}})
+    scene["pipeline"][MATERIAL] = {**SOFT, "poisson": 0.4}
+    scene["pipeline"][2:4] = [{"type": "loads.blast", "on": "inner_surface", "peak": "20 MPa", "rise": "5 us", "fall": "15 us"}]
+    scene["pipeline"][-2:] = [{"type": "probes.point", "position": [0.005, 0, 0], "every": "5 us"}]
+
+
+def volumetric_breaking(scene):
+    scene["pipeline"][MATERIAL] = {**SOFT, "poisson": 0.4, "failure": {"type": "failures.elongation", "limit": "1e-3 mm"}}
+
+
+def plastic(scene):
+    scene["pipeline"][MATERIAL] = {"type": "materials.plastic", "young": "10 GPa", "density": 2500, "membrane": "none",
+                                   "yield": "5 MPa"}
+
+
+def softening(scene):
+    scene["pipeline"][MATERIAL] = {"type": "materials.softening", "young": "10 GPa", "density": 2500, "membrane": "none",
+                                   "strength": "6 MPa", "fracture_energy": "3 J/m2"}
+
+
+def rates(scene):
+    """A criterion that asks for rates, and one with a memory."""
+    scene["pipeline"][MATERIAL]["failure"] = [
+        {"type": "failures.rate", "limit": 1e-3, "reference": "1e5 1/s"},
+        {"type": "failures.tuler_butcher", "threshold": 5e-4, "impulse": 1e-11}]
+
+
+def two_laws(scene):
+    scene["regions"] = {"upper": {"box": {"low": [0, 0, 0.0065], "high": [1, 1, 1]}}}
+    scene["pipeline"][MATERIAL] = SOFT
+    scene["pipeline"].insert(2, {"type": "materials.plastic", "young": "20 GPa", "density": 2500, "membrane": "none",
+                                 "yield": "5 MPa", "region": "upper"})
+
+
+def bcc(scene):
+    scene["pipeline"][LATTICE]["type"] = "lattices.bcc"
+    scene["pipeline"][MATERIAL] = {**SOFT, "failure": {"type": "failures.elongation", "limit": "1e-3 mm"}}
+
+
+def random_lattice(scene):
+    scene["pipeline"][LATTICE]["type"] = "lattices.random"
+    scene["pipeline"][MATERIAL]["membrane"] = "I"
+
+
+def contact(scene):
+    """Pieces meet again: a load that watches the body."""
+    scene["pipeline"][MATERIAL]["failure"]["limit"] = "4e-4 mm"
+    scene["pipeline"][2:4] = [{"type": "loads.start_velocity", "on": "z_max", "value": [0, 0, -20]},
+                              {"type": "loads.gravity", "value": [0, 0, -9.81]}, {"type": "loads.contact"},
+                              {"type": "loads.floor", "point": [0, 0, -0.0002], "normal": [0, 0, 1], "stiffness": "1 MN/m"}]
+    scene["pipeline"] = [stage for stage in scene["pipeline"] if stage["type"] != "probes.reaction"]
+
+
+def cohesive(scene):
+    scene["pipeline"][MATERIAL]["failure"] = {"type": "failures.cohesive", "strength": "3 MPa", "fracture_energy": "3 J/m2"}
+
+
+def local_steps(scene):
+    scene["regions"] = {"stiff": {"box": {"low": [0, 0, 0.006], "high": [1, 1, 0.008]}}}
+    scene["pipeline"][MATERIAL] = SOFT
+    scene["pipeline"].insert(2, {**SOFT, "young": "1 TPa", "region": "stiff"})
+    for stage in scene["pipeline"]:
+        if stage["type"] == "solvers.explicit":
+            stage["local_steps"] = 8
+
+
+def rest_then_motion(scene):
+    """A state of rest by Newton's method, implicit steps, then explicit ones."""
+    del scene["pipeline"][MATERIAL]["failure"]
+    scene["pipeline"][3:5] = [
+        {"type": "loads.force", "on": "z_max", "total": [5, 0, 200], "rise": "10 us"}, {"type": "solvers.static"},
+        {"type": "solvers.implicit", "end_time": "20 us", "time_step": "2 us"},
+        {"type": "solvers.explicit", "end_time": "60 us", "damping": 0.1}]
+
+
+def relaxation(scene):
+    del scene["pipeline"][MATERIAL]["failure"]
+    scene["pipeline"][3:5] = [{"type": "loads.force", "on": "z_max", "total": [5, 0, 200]},
+                              {"type": "solvers.relaxation", "tolerance": 1e-4}]
+
+
+CASES = [breaking, intact, floats, three_dimensions, partial_cells, volumetric_breaking, plastic, softening, rates, two_laws,
+         bcc, random_lattice, contact, cohesive, local_steps, rest_then_motion, relaxation]
+TIMES = ("wall_seconds", "nanoseconds_per_particle_step", "peak_memory_bytes", "expected_seconds")
+
+
+def comparable(folder, ranks):
+    files = launch.contents(folder)
+    summary = json.loads(files["summary.json"])
+    assert summary["ranks"] == ranks, f"the summary says {summary['ranks']} ranks, not {ranks}"
+    for key in (*TIMES, "ranks", "threads", "memory_bytes"):
+        summary.pop(key, None)
+    files["summary.json"] = json.dumps(summary, sort_keys=True)
+    del files["files.csv"]  # has the hash of the summary
+    return files, summary
+
+
+def main(program, name):
+    scene = copy.deepcopy(BLOCK)
+    next(case for case in CASES if case.__name__ == name)(scene)
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "scene.json")
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump(scene, file)
+        expected = None
+        for ranks in (1, 2, 3, 4):
+            out = os.path.join(folder, f"ranks_{ranks}")
+            end = launch.run(ranks, program, "run", path, "--out", out, "--threads", "2" if ranks == 3 else "1", "--quiet")
+            if end.returncode != 0:
+                sys.exit(f"{ranks} ranks: exit code {end.returncode}: {end.stderr}")
+            found, summary = comparable(out, ranks)
+            if expected is None:
+                expected = found
+                print(f"{summary['particles']} particles, {summary['steps']} steps, {summary['broken_springs']}, {summary['state_hash']}")
+            different = sorted(file for file in found.keys() | expected.keys() if found.get(file) != expected.get(file))
+            if different:
+                print(expected["summary.json"], found["summary.json"], sep="\n")
+                sys.exit(f"{ranks} ranks: other than one process: {different}")
+
+
+if __name__ == "__main__":
+    if sys.argv[1:] == ["cases"]:
+        print(";".join(case.__name__ for case in CASES), end="")
+    else:
+        main(sys.argv[1], sys.argv[2])
