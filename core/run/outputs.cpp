@@ -181,7 +181,7 @@ void Outputs::show_last() {
 /// Shows the present state to outputs. All ranks bring it up to date, and the first one shows it.
 void Outputs::show_to(const std::vector<Output*>& due) {
   if (due.empty()) return;
-  simulation_.gather();
+  simulation_.gather_in_first();
   if (ranks_.is_first()) {
     const Ranks::Solo solo(ranks_);
     show_here(due);

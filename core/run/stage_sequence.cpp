@@ -18,7 +18,8 @@ StageSequence::StageSequence(const Plan& plan, const RunOptions& options, RunFol
       recorder_(plan, simulation, folder, stopwatch_, ranks),
       checkpoints_(
           plan, folder, stopwatch_, ranks, options.checkpoint_every, [this] { recorder_.drain(); },
-          [&simulation] { simulation.gather(); }, [this](Archive& state) { archive(state); }) {}
+          [&simulation] { simulation.gather_in_first(); },
+          [this](Archive& state) { archive(state); }) {}
 
 void StageSequence::archive(Archive& archive) {
   simulation_.archive(archive);

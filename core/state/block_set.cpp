@@ -84,6 +84,7 @@ BlockSet::BlockSet(const Model& model, int threads, Ranks& ranks, int blocks)
       std::equal_range(owners_.begin(), owners_.end(), static_cast<int>(rank));
   first_mine_ = static_cast<std::size_t>(first - owners_.begin());
   last_mine_ = static_cast<std::size_t>(last - owners_.begin());
+  whole_ = count == 1 || reads_all(model) ? Whole::everywhere : Whole::nowhere;
   if (count > 1) halo_.emplace(model, *layout_, owners_, ranks);
   keeps_whole_ = reads_all(model);
   team_.for_own(blocks_.size(), [&](std::size_t b) { allocate(blocks_[b], b); });
@@ -92,17 +93,18 @@ BlockSet::BlockSet(const Model& model, int threads, Ranks& ranks, int blocks)
     const auto [block, place] = at(particle);
     for (int c = 0; c < 3; ++c) block->velocity[c].set(place, velocity[c]);
   }
+  if (is_whole()) return;
+  ranks_.meet(Ranks::Meeting::state);
+  halo_->exchange(blocks_, ranks_);
 }
 
-void BlockSet::allocate(Block& block, std::size_t number) const {
+/// Allocates a block. Of another rank's block little is touched before it is gathered, so that it
+/// takes little memory.
+void BlockSet::allocate(Block& block, std::size_t number) {
+  const Precision precision = model_.springs.choice.precision;
   block.layout = &layout_->blocks[number];
   block.number = number;
   block.rows = block.layout->rows;
-  for (int c = 0; c < model_.degrees_of_freedom; ++c) {
-    block.displacement[c] = Numbers(model_.springs.choice.precision, block.layout->sites);
-    block.velocity[c] = Numbers(model_.springs.choice.precision, block.layout->sites);
-  }
-  block.scratch = AlignedArray<double>(layout_->scratch_numbers());
   block.damped_work.assign(block.rows.size(), 0);
   if (model_.springs.softens || !model_.cohesive.empty())
     block.fracture_work.assign(block.rows.size(), 0);
@@ -110,6 +112,21 @@ void BlockSet::allocate(Block& block, std::size_t number) const {
   if (!model_.cohesive.empty() || std::any_of(block.rows.begin(), block.rows.end(), is_other))
     block.other_sums.resize(block.rows.size());
   block.sums.resize(block.rows.size());
+  const bool at_once = is_mine(block) || keeps_whole_;
+  for (int c = 0; c < model_.degrees_of_freedom; ++c)
+    for (Numbers* field : {&block.displacement[c], &block.velocity[c]})
+      *field = at_once ? Numbers(precision, block.layout->sites)
+                       : Numbers(precision, block.layout->sites, FilledLater());
+  if (at_once)
+    fill(block);
+  else
+    block.alive = AlignedArray<std::uint16_t>(block.layout->sites, FilledLater());
+}
+
+/// Allocates and fills what a block has besides its motion.
+void BlockSet::fill(Block& block) const {
+  if (block.scratch.size() > 0) return;
+  block.scratch = AlignedArray<double>(layout_->scratch_numbers());
   layout_->fill(block);
 }
 
@@ -198,24 +215,37 @@ void BlockSet::note_gone(Block& block, const AlarmRow& springs) const {
 }
 
 template <class Parts>
-void BlockSet::spread(const Parts& parts) {
+void BlockSet::spread(const Parts& parts, bool to_all) {
   for (Block& block : blocks_) {
-    const int owner = owners_[block.number];
+    const int owner = owners_[block.number], here = ranks_.rank();
+    if (!to_all && owner == 0) continue;
+    if (!to_all && here != 0 && here != owner) continue;
     Archive archive(
         [&](void* data, std::size_t size) {
-          ranks_.spread(owner, {static_cast<std::byte*>(data), size});
+          const std::span bytes(static_cast<std::byte*>(data), size);
+          if (to_all) return ranks_.spread(owner, bytes);
+          const OutgoingBytes out{0, bytes};
+          const IncomingBytes in{owner, bytes};
+          if (here == owner)
+            ranks_.exchange({&out, 1}, {});
+          else
+            ranks_.exchange({}, {&in, 1});
         },
-        owner != ranks_.rank());
+        owner != here);
     parts(archive, block);
   }
 }
 
-void BlockSet::gather() {
-  if (is_whole()) return;
+void BlockSet::gather(Whole where) {
+  if (ranks_.is_alone() || whole_ >= where) return;
   ranks_.meet(Ranks::Meeting::state);
-  spread([&](Archive& archive, Block& block) { visit(archive, block, model_.degrees_of_freedom); });
-  is_whole_ = true;
+  spread([&](Archive& archive, Block& block) { visit_all(archive, block); },
+         where == Whole::everywhere);
+  whole_ = where;
 }
+
+void BlockSet::gather() { gather(Whole::everywhere); }
+void BlockSet::gather_in_first() { gather(Whole::in_first); }
 
 void BlockSet::gather_results() {
   if (ranks_.is_alone()) return;
@@ -231,23 +261,28 @@ std::int64_t BlockSet::exchange_ranks() {
   for (std::size_t b = first_mine_; b < last_mine_; ++b)
     broken += static_cast<std::int64_t>(blocks_[b].broken.size());
   broken = ranks_.meet(Ranks::Meeting::step, broken);
-  is_whole_ = false;
+  whole_ = Whole::nowhere;
   if (!keeps_whole_) {
     halo_->exchange(blocks_, ranks_);
     return broken;
   }
   spread([&](Archive& archive, Block& block) {
-    visit(archive, block, model_.degrees_of_freedom);
+    visit_all(archive, block);
     visit_found(archive, block);
   });
-  is_whole_ = true;
+  whole_ = Whole::everywhere;
   return broken;
 }
 
+void BlockSet::visit_all(Archive& archive, Block& block) const {
+  if (archive.restores()) fill(block);
+  visit(archive, block, model_.degrees_of_freedom);
+}
+
 void BlockSet::archive(Archive& archive) {
-  if (archive.restores()) is_whole_ = true;
+  if (archive.restores()) whole_ = Whole::everywhere;
   archive.same(blocks_.size(), "the number of blocks");
-  for (Block& block : blocks_) visit(archive, block, model_.degrees_of_freedom);
+  for (Block& block : blocks_) visit_all(archive, block);
 }
 
 }  // namespace hyperlattice

@@ -31,8 +31,7 @@ inline LawNumbers read_numbers(const Layout::Memory& memory, std::uint32_t count
 class BlockSet {
  public:
   /// Stores the body in a block for each thread.
-  BlockSet(const Model& model, int threads)
-      : BlockSet(model, threads, Ranks::alone(), threads) {}
+  BlockSet(const Model& model, int threads) : BlockSet(model, threads, Ranks::alone(), threads) {}
   /// Stores the body in so many blocks at most, which the ranks share. Each rank has all blocks,
   /// but only its own are up to date between steps; see gather().
   BlockSet(const Model& model, int threads, Ranks& ranks, int blocks);
@@ -77,10 +76,16 @@ class BlockSet {
 
   /// Says that all blocks must be up to date before each step, in every rank.
   void keep_whole() { keeps_whole_ = true; }
-  /// Returns whether all blocks are up to date.
-  bool is_whole() const { return ranks_.is_alone() || is_whole_; }
+  /// Prepares an evaluation of forces.
+  void prepare() {
+    if (keeps_whole_) gather();
+  }
+  /// Returns whether all blocks are up to date in every rank.
+  bool is_whole() const { return ranks_.is_alone() || whole_ == Whole::everywhere; }
   /// Brings all blocks up to date in every rank. All ranks must call it.
   void gather();
+  /// Brings all blocks up to date in the first rank. All ranks must call it.
+  void gather_in_first();
   /// Copies to every rank what the last evaluation found for rows and boundary particles.
   void gather_results();
   /// Meets the other ranks after each has moved its own blocks, and gets the rows of others that it
@@ -107,10 +112,15 @@ class BlockSet {
   void archive(Archive& archive);
 
  private:
-  /// Copies parts of each block from the rank that computes it.
+  /// Where all blocks are up to date.
+  enum class Whole : std::uint8_t { nowhere, in_first, everywhere };
+  /// Copies parts of each block from the rank that computes it, to all ranks or to the first.
   template <class Parts>
-  void spread(const Parts& parts);
-  void allocate(Block& block, std::size_t number) const;
+  void spread(const Parts& parts, bool to_all = true);
+  void gather(Whole where);
+  void visit_all(Archive& archive, Block& block) const;
+  void allocate(Block& block, std::size_t number);
+  void fill(Block& block) const;
   void add_supports(Block& block) const;
 
   const Model& model_;
@@ -121,7 +131,8 @@ class BlockSet {
   std::vector<int> owners_;  // rank of each block
   std::size_t first_mine_ = 0, last_mine_ = 0;
   std::optional<Halo> halo_;  // none: there are no other ranks
-  bool keeps_whole_ = false, is_whole_ = true;
+  bool keeps_whole_ = false;
+  Whole whole_ = Whole::everywhere;
 };
 
 }  // namespace hyperlattice

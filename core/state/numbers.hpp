@@ -13,10 +13,15 @@ namespace hyperlattice {
 
 /// Zeros in memory aligned to cache lines. The thread that makes the array writes it first, so that
 /// the memory is local to that thread.
+/// Says that an array is filled later: the system gives memory only to what is written.
+struct FilledLater {};
+
 template <class T>
 class AlignedArray {
  public:
   AlignedArray() = default;
+  AlignedArray(std::size_t size, FilledLater)
+      : data_(static_cast<T*>(allocate_array(size * sizeof(T))), Free{size}), size_(size) {}
   explicit AlignedArray(std::size_t size)
       : data_(static_cast<T*>(allocate_array(size * sizeof(T))), Free{size}), size_(size) {
     std::uninitialized_fill_n(data_.get(), size, T{});
@@ -44,6 +49,12 @@ class Numbers {
       floats_ = AlignedArray<float>(size);
     else
       doubles_ = AlignedArray<double>(size);
+  }
+  Numbers(Precision precision, std::size_t size, FilledLater later) {
+    if (precision == Precision::floats)
+      floats_ = AlignedArray<float>(size, later);
+    else
+      doubles_ = AlignedArray<double>(size, later);
   }
   void* get() const {
     return floats_.get() != nullptr ? static_cast<void*>(floats_.get()) : doubles_.get();

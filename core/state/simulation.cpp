@@ -50,6 +50,7 @@ Simulation::State& Simulation::whole() const {
   return *state_;
 }
 void Simulation::gather() const { whole(); }
+void Simulation::gather_in_first() const { state_->blocks.gather_in_first(); }
 
 void Simulation::step(double time_step) { state_->step(time_step); }
 void Simulation::set_time(double time) { state_->clock.set(time); }
@@ -156,31 +157,47 @@ Particle Simulation::fastest(double& speed, bool& finite) const {
 
 double Simulation::farthest() const {
   double largest = 0;
-  whole().blocks.for_runs(
-      [&](const Block& block, std::uint64_t place, Particle, std::uint64_t count) {
-        for (std::uint64_t n = place; n < place + count; ++n)
-          largest = std::max(largest, norm({block.displacement[0][n], block.displacement[1][n],
-                                            block.displacement[2][n]}));
-      });
-  return largest;
+  BlockSet& blocks = state_->blocks;
+  blocks.for_runs([&](const Block& block, std::uint64_t place, Particle, std::uint64_t count) {
+    if (!blocks.is_mine(block)) return;
+    for (std::uint64_t n = place; n < place + count; ++n)
+      largest = std::max(largest, norm({block.displacement[0][n], block.displacement[1][n],
+                                        block.displacement[2][n]}));
+  });
+  if (blocks.ranks().is_alone()) return largest;
+  blocks.ranks().meet(Ranks::Meeting::state);
+  std::array<std::int64_t, 1> bits{std::bit_cast<std::int64_t>(largest)};  // ordered as the numbers
+  blocks.ranks().largest(bits);
+  return std::bit_cast<double>(bits[0]);
 }
 
 std::uint64_t Simulation::hash() const {
-  std::uint64_t hash = 14695981039346656037u;
+  BlockSet& blocks = state_->blocks;
+  constexpr std::uint64_t start = 14695981039346656037u;
+  std::uint64_t hash = start;
   const auto add = [&](std::uint64_t bits) {
     hash = (hash ^ bits) * 1099511628211u;
   };  // FNV-1a, a word at a time
-  const int components = state_->blocks.model().degrees_of_freedom;
-  whole().blocks.for_runs(
-      [&](const Block& block, std::uint64_t place, Particle, std::uint64_t count) {
-        for (std::uint64_t n = place; n < place + count; ++n) {
+  const int components = blocks.model().degrees_of_freedom;
+  std::uint64_t sum = 0;
+  blocks.for_runs(
+      [&](const Block& block, std::uint64_t place, Particle first, std::uint64_t count) {
+        if (!blocks.is_mine(block)) return;
+        for (std::uint64_t n = 0; n < count; ++n) {
+          hash = start;
+          add(first + n);
           for (int c = 0; c < components; ++c) {
-            add(std::bit_cast<std::uint64_t>(block.displacement[c][n]));
-            add(std::bit_cast<std::uint64_t>(block.velocity[c][n]));
+            add(std::bit_cast<std::uint64_t>(block.displacement[c][place + n]));
+            add(std::bit_cast<std::uint64_t>(block.velocity[c][place + n]));
           }
-          add(state_->blocks.layout().alive_bits(block, n));
+          add(blocks.layout().alive_bits(block, place + n));
+          sum += hash;
         }
       });
+  blocks.ranks().meet(Ranks::Meeting::state);
+  std::array<std::int64_t, 1> all{static_cast<std::int64_t>(sum)};
+  blocks.ranks().sum(all);
+  hash = start;  // of what every rank knows
   if (!state_->damage.empty())
     state_->damage.for_damaged([&](Particle particle, double damage, double rate) {
       add(particle);
@@ -188,7 +205,7 @@ std::uint64_t Simulation::hash() const {
       add(std::bit_cast<std::uint64_t>(rate));
     });
   state_->loads.for_memory([&](double number) { add(std::bit_cast<std::uint64_t>(number)); });
-  return hash;
+  return static_cast<std::uint64_t>(all[0]) + hash;
 }
 
 double Simulation::bytes() const { return state_->blocks.layout().state_bytes(); }

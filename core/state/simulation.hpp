@@ -77,8 +77,9 @@ class Simulation {
   /// Calls work(n) for each n below `size` on the threads of the run, as Team::for_each does.
   void in_parallel(std::size_t size, const std::function<void(std::size_t)>& work) const;
 
-  /// Brings the whole state up to date in every rank.
+  /// Brings the whole state up to date in every rank, or in the first one.
   void gather() const;
+  void gather_in_first() const;
 
   /// Returns the kinetic energy, J, of the velocities v(n-1/2). Costs little.
   double kinetic() const;
@@ -161,8 +162,9 @@ class Simulation {
   Particle fastest(double& speed, bool& finite) const;
   /// Returns the largest distance of a particle from its start, m.
   double farthest() const;
-  /// Returns an FNV-1a hash of displacements, velocities and living springs in the particles'
-  /// order, then of damage and of what loads keep.
+  /// Returns a hash of displacements, velocities and living springs, of damage and of what loads
+  /// keep: the sum, modulo 2^64, of FNV-1a hashes of each particle with its number, and of the
+  /// rest.
   std::uint64_t hash() const;
   double bytes() const;  ///< of the state without scratch arrays
   double scratch_bytes() const;

@@ -25,6 +25,7 @@ void Sweeps::set_damping(double alpha, double rate) {
 }
 
 std::int64_t Sweeps::step(const Sweep& sweep) {
+  blocks_.prepare();
   loads_.prepare(sweep);
   loads_.check_factors();
   if (!damage_.empty()) damage_.update(2 * sweep.after);
@@ -45,6 +46,7 @@ std::int64_t Sweeps::step(const Sweep& sweep) {
 }
 
 RowSums Sweeps::measure(const Sweep& sweep) {
+  blocks_.prepare();
   loads_.prepare(sweep);
   if (!damage_.empty()) damage_.evaluate();
   read_motion();

@@ -80,13 +80,29 @@ def unstable(trial):
     expect(summary["status"] == "failed" and summary["exit_code"] == 3, "the summary does not say so")
 
 
-def one_load_fails(trial):
-    """A load that is no number in the block of one rank only."""
+def bad_plugins(trial):
+    return os.path.join(os.path.dirname(os.path.dirname(trial.program)), "tests", "bad_plugins", "misbehaving")
+
+
+def one_law_fails(trial):
+    """A criterion throws in the rank whose springs reach their alarm first."""
     scene = json.loads(json.dumps(BLOCK))
-    scene["pipeline"].insert(4, {"type": "loads.expression", "on": "z_max", "force": "1e300 * 1e300 * (t > 20e-6)"})
+    scene["plugins"] = [bad_plugins(trial)]
+    scene["pipeline"][1]["failure"] = {"type": "failures.misbehaving", "limit": 1e-4}
     trial.scene = trial.write(scene)
-    end = trial.run(RANKS)
-    expect(end.returncode in (2, 3, 4), f"exit code {end.returncode}: {end.stderr}")
+    expect_end(trial.run(RANKS, "--quiet", HYPERLATTICE_TEST_FAULT="throw in breaks"), 4, "oops")
+    with open(os.path.join(trial.out, "summary.json"), encoding="utf-8") as file:
+        summary = json.load(file)
+    expect(summary["status"] == "failed" and "oops" in summary["reason"], "the summary does not say so")
+
+
+def one_writer_fails(trial):
+    """Only the first rank writes."""
+    scene = json.loads(json.dumps(BLOCK))
+    scene["plugins"] = [bad_plugins(trial)]
+    scene["pipeline"].append({"type": "writers.misbehaving", "every": "1 us"})
+    trial.scene = trial.write(scene)
+    expect_end(trial.run(RANKS, "--quiet", HYPERLATTICE_TEST_FAULT="throw in frame"), 4, "oops")
 
 
 def no_engine(trial):
@@ -111,7 +127,7 @@ def children(pid):
 
 def long_scene(trial):
     scene = json.loads(json.dumps(BLOCK))
-    scene["pipeline"][4]["end_time"] = "1 ms"
+    scene["pipeline"][4]["end_time"] = "0.5 ms"
     trial.scene = trial.write(scene)
     whole = os.path.join(trial.folder, "whole")
     expect(trial.run(1, "--quiet", out=whole).returncode == 0, "the run in one process failed")
@@ -169,7 +185,7 @@ def links_no_mpi(trial):
         expect(("libmpi" in needs) == path.endswith("engines.mpi.so"), f"{path}: {needs}")
 
 
-CASES = [wrong_scene, folder_in_use, unstable, one_load_fails, no_engine, alone_on_request, killed, interrupted, links_no_mpi]
+CASES = [wrong_scene, folder_in_use, unstable, one_law_fails, one_writer_fails, no_engine, alone_on_request, killed, interrupted, links_no_mpi]
 
 
 def main(program, name):

@@ -16,11 +16,11 @@ BLOCK = {
     "pipeline": [
         {"type": "lattices.cubic", "spacing": 1e-3, "shape": {"box": {"low": [0, 0, 0], "high": [0.006, 0.007, 0.014]}}},
         {"type": "materials.elastic", "young": "10 GPa", "poisson": 0.1, "density": 2500, "membrane": "I-m",
-         "failure": {"type": "failures.elongation", "limit": "1e-3 mm"}},
+         "failure": {"type": "failures.elongation", "limit": "5e-4 mm"}},
         {"type": "loads.fixed", "on": "z_min"},
-        {"type": "loads.velocity", "on": "z_max", "value": [0.2, 0, 1], "rise": "5 us"},
-        {"type": "solvers.explicit", "end_time": "100 us"},
-        {"type": "writers.vtu", "every": "40 us"},
+        {"type": "loads.velocity", "on": "z_max", "value": [0.2, 0, 1], "rise": "2 us"},
+        {"type": "solvers.explicit", "end_time": "40 us"},
+        {"type": "writers.vtu", "every": "20 us"},
         {"type": "probes.point", "name": "top", "position": [0.003, 0.003, 0.012], "every": "5 us"},
         {"type": "probes.reaction", "on": "z_min", "every": "10 us"},
     ],
@@ -41,7 +41,7 @@ def floats(scene):
 
 
 def three_dimensions(scene):
-    scene["pipeline"][MATERIAL] = {**SOFT, "failure": {"type": "failures.elongation", "limit": "1e-3 mm"}}
+    scene["pipeline"][MATERIAL] = {**SOFT, "failure": {"type": "failures.elongation", "limit": "5e-4 mm"}}
 
 
 def partial_cells(scene):
@@ -54,7 +54,7 @@ def partial_cells(scene):
 
 
 def volumetric_breaking(scene):
-    scene["pipeline"][MATERIAL] = {**SOFT, "poisson": 0.4, "failure": {"type": "failures.elongation", "limit": "1e-3 mm"}}
+    scene["pipeline"][MATERIAL] = {**SOFT, "poisson": 0.4, "failure": {"type": "failures.elongation", "limit": "5e-4 mm"}}
 
 
 def plastic(scene):
@@ -83,7 +83,7 @@ def two_laws(scene):
 
 def bcc(scene):
     scene["pipeline"][LATTICE]["type"] = "lattices.bcc"
-    scene["pipeline"][MATERIAL] = {**SOFT, "failure": {"type": "failures.elongation", "limit": "1e-3 mm"}}
+    scene["pipeline"][MATERIAL] = {**SOFT, "failure": {"type": "failures.elongation", "limit": "5e-4 mm"}}
 
 
 def random_lattice(scene):
@@ -93,7 +93,7 @@ def random_lattice(scene):
 
 def contact(scene):
     """Pieces meet again: a load that watches the body."""
-    scene["pipeline"][MATERIAL]["failure"]["limit"] = "4e-4 mm"
+    scene["pipeline"][MATERIAL]["failure"]["limit"] = "2e-4 mm"
     scene["pipeline"][2:4] = [{"type": "loads.start_velocity", "on": "z_max", "linear": [0, 0, -20]},
                               {"type": "loads.gravity", "acceleration": [0, 0, -9.81]}, {"type": "loads.contact"},
                               {"type": "loads.floor", "point": [0, 0, -0.0002], "normal": [0, 0, 1], "stiffness": "1 MN/m"}]
@@ -119,7 +119,7 @@ def rest_then_motion(scene):
     scene["pipeline"][3:5] = [
         {"type": "loads.force", "on": "z_max", "total": [5, 0, 200], "rise": "10 us"}, {"type": "solvers.static"},
         {"type": "solvers.implicit", "end_time": "20 us", "time_step": "2 us"},
-        {"type": "solvers.explicit", "end_time": "60 us", "damping": 0.1}]
+        {"type": "solvers.explicit", "end_time": "30 us", "damping": 0.1}]
 
 
 def relaxation(scene):
@@ -154,9 +154,9 @@ def main(program, name):
         with open(path, "w", encoding="utf-8") as file:
             json.dump(scene, file)
         expected = None
-        for ranks in (1, 2, 3, 4):
+        for ranks in (1, 2, 3):
             out = os.path.join(folder, f"ranks_{ranks}")
-            end = launch.run(ranks, program, "run", path, "--out", out, "--threads", "2" if ranks == 3 else "1", "--quiet")
+            end = launch.run(ranks, program, "run", path, "--out", out, "--threads", "2" if ranks == 2 else "1", "--quiet")
             if end.returncode != 0:
                 sys.exit(f"{ranks} ranks: exit code {end.returncode}: {end.stderr}")
             found, summary = comparable(out, ranks)
