@@ -2,6 +2,7 @@
 // writes no file.
 #include "commands.hpp"
 #include "elapsed_time.hpp"
+#include "machine.hpp"
 
 #include <plan/calibration.hpp>
 #include <plan/shortage.hpp>
@@ -18,7 +19,7 @@ namespace hyperlattice {
 
 namespace {
 
-constexpr int most_threads = 4096;
+constexpr int most_threads = 4096, most_ranks = 1 << 20;
 
 /// Returns the default folder of `run`; empty if something else has its name.
 std::filesystem::path results_by_default(const std::filesystem::path& scene) {
@@ -76,20 +77,38 @@ std::unique_ptr<Plan> SceneArguments::plan(Host& host, int ranks, int node_ranks
 Command plan_command(CLI::App& program) {
   struct Arguments : SceneArguments {
     bool json = false;
+    int ranks = 0;  // 0: not given
+    std::filesystem::path machine;
   };
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
       program.add_subcommand("plan", "check a scene and say what a run of it will do");
   arguments->declare(*command);
   command->add_flag("--json", arguments->json, "print it for machines");
+  command
+      ->add_option("--ranks", arguments->ranks,
+                   "say how so many processes (mpirun -n) would share the run")
+      ->check(CLI::Range(1, most_ranks));
+  command
+      ->add_option("--machine", arguments->machine,
+                   "JSON file with latency (s) and bandwidth (bytes/s) of messages, and memory "
+                   "(bytes) of a rank")
+      ->needs("--ranks");
   return {command, [arguments] {
             Host host;
-            const auto plan = arguments->plan(host);
+            const Machine machine = read_machine(arguments->machine);
+            const auto plan = arguments->plan(host, std::max(1, arguments->ranks));
             for (std::string& missing : shortages(*plan, results_by_default(arguments->scene)))
               plan->model->warnings.push_back(std::move(missing));
             calibrate_run_time(*plan);
-            std::cout << (arguments->json ? json_text(plan_json(*plan)) : plan_text(*plan))
-                      << std::flush;
+            nlohmann::json facts = plan_json(*plan);
+            std::string text = plan_text(*plan);
+            if (arguments->ranks > 0) {
+              const Distribution shared = distribution_of(*plan, machine);
+              facts["distribution"] = distribution_json(shared);
+              text += distribution_text(shared);
+            }
+            std::cout << (arguments->json ? json_text(facts) : text) << std::flush;
             return exit_done;
           }};
 }

@@ -2,6 +2,7 @@
 #include <plan/estimates.hpp>
 #include <plan/fields.hpp>
 #include <state/damage_records.hpp>
+#include <state/halo.hpp>
 #include <state/inside_out.hpp>
 #include <state/layout.hpp>
 #include <state/nodal_pressures.hpp>
@@ -222,7 +223,8 @@ void estimate_time(Plan& plan) {
   if (single) spring *= floats;
   if (!model.volumetric.empty()) spring *= single ? volumetric_floats : volumetric;
   const double step = 1e-9 * spring * static_cast<double>(model.body.base_springs()) /
-                      (1 + second_thread * (plan.threads - 1));
+                      (1 + second_thread * (plan.threads - 1)) /
+                      (needs_whole(model).empty() ? plan.ranks : 1);
   for (const PlannedStage& stage : plan.stages)
     plan.expected_seconds += step * static_cast<double>(stage.plan.steps) *
                              stage.plan.sweeps_per_step * (stage.plan.damping > 0 ? damped : 1);

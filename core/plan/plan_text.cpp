@@ -2,6 +2,7 @@
 #include <base/figures.hpp>
 #include <plan/damage.hpp>
 #include <plan/estimates.hpp>
+#include <plan/text_page.hpp>
 #include <state/failure_record.hpp>
 
 #include <spdlog/fmt/fmt.h>
@@ -58,21 +59,6 @@ std::string run_time_text(const Plan& plan) {
                                                      : "touches",
                      duration_text(most));
 }
-
-class Page {
- public:
-  void section(std::string_view title) {
-    fmt::format_to(std::back_inserter(text_), "\n{}\n", title);
-  }
-  void line(std::string_view name, std::string_view value) {
-    fmt::format_to(std::back_inserter(text_), "  {:<30} {}\n", name, value);
-  }
-  std::string take() { return std::move(text_); }
-  void title(std::string_view text) { text_ = fmt::format("{}\n", text); }
-
- private:
-  std::string text_;
-};
 
 }  // namespace
 

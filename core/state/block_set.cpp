@@ -44,15 +44,6 @@ void visit_results(Archive& archive, Block& block) {
   archive(block.contributions);
 }
 
-/// Returns whether a step may read or change what any block has.
-bool reads_all(const Model& model) {
-  const auto watches = [&](std::size_t l) { return !model.loads[l].watched.empty(); };
-  bool any = model.body.is_listed() || !model.cohesive.empty() ||
-             (!model.volumetric.empty() && model.springs.breakable);
-  for (std::size_t l = 0; l < model.loads.size(); ++l) any = any || watches(l);
-  return any;
-}
-
 void visit(Archive& archive, Block& block, int components) {
   for (int c = 0; c < components; ++c) {
     archive(block.displacement[c].bytes());
@@ -75,18 +66,14 @@ BlockSet::BlockSet(const Model& model, int threads, Ranks& ranks, int blocks)
       layout_(make_layout(model, blocks)),
       blocks_(layout_->blocks.size()),
       team_(threads),
-      ranks_(ranks) {
-  const auto count = static_cast<std::size_t>(ranks.count()),
-             rank = static_cast<std::size_t>(ranks.rank());
-  for (std::size_t b = 0; b < blocks_.size(); ++b)
-    owners_.push_back(static_cast<int>(b * count / blocks_.size()));
-  const auto [first, last] =
-      std::equal_range(owners_.begin(), owners_.end(), static_cast<int>(rank));
+      ranks_(ranks),
+      owners_(owners_of(blocks_.size(), ranks.count())) {
+  const auto [first, last] = std::equal_range(owners_.begin(), owners_.end(), ranks.rank());
   first_mine_ = static_cast<std::size_t>(first - owners_.begin());
   last_mine_ = static_cast<std::size_t>(last - owners_.begin());
-  whole_ = count == 1 || reads_all(model) ? Whole::everywhere : Whole::nowhere;
-  if (count > 1) halo_.emplace(model, *layout_, owners_, ranks);
-  keeps_whole_ = reads_all(model);
+  keeps_whole_ = !needs_whole(model).empty();
+  whole_ = ranks.count() == 1 || keeps_whole_ ? Whole::everywhere : Whole::nowhere;
+  if (ranks.count() > 1) halo_.emplace(model, *layout_, owners_, ranks.rank());
   team_.for_own(blocks_.size(), [&](std::size_t b) { allocate(blocks_[b], b); });
   for (Block& block : blocks_) add_supports(block);
   for (const auto& [particle, velocity] : model.loads.start_velocities) {

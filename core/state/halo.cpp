@@ -5,8 +5,25 @@
 
 namespace hyperlattice {
 
-Halo::Halo(const Model& model, const Layout& layout, const std::vector<int>& owners,
-           const Ranks& ranks)
+std::vector<int> owners_of(std::size_t blocks, int ranks) {
+  std::vector<int> owners;
+  for (std::size_t b = 0; b < blocks; ++b)
+    owners.push_back(static_cast<int>(b * static_cast<std::size_t>(ranks) / blocks));
+  return owners;
+}
+
+std::string needs_whole(const Model& model) {
+  if (model.body.is_listed()) return "the lattice is a list of springs";
+  if (!model.cohesive.empty()) return "damage grows";
+  if (!model.volumetric.empty() && model.springs.breakable)
+    return "cells with a volumetric energy may break";
+  for (std::size_t l = 0; l < model.loads.size(); ++l)
+    if (!model.loads[l].watched.empty())
+      return model.loads[l].stage->component->type() + " answers to the motion of particles";
+  return "";
+}
+
+Halo::Halo(const Model& model, const Layout& layout, const std::vector<int>& owners, int rank)
     : components_(model.degrees_of_freedom),
       has_springs_(model.springs.breakable || model.springs.softens),
       number_(bytes_of(model.springs.choice.precision)) {
@@ -16,10 +33,10 @@ Halo::Halo(const Model& model, const Layout& layout, const std::vector<int>& own
     for (const Layout::Borrowed& range : layout.borrowed(block)) {
       const int from = owners[range.block], to = owners[block];
       if (from == to) continue;
-      if (from == ranks.rank()) peers_[to].sent.push_back(range);
-      if (to == ranks.rank()) peers_[from].received.push_back(range);
+      if (from == rank) peers_[to].sent.push_back(range);
+      if (to == rank) peers_[from].received.push_back(range);
     }
-  for (auto& [rank, peer] : peers_) {
+  for (auto& [other, peer] : peers_) {
     for (std::vector<Layout::Borrowed>* ranges : {&peer.sent, &peer.received}) {
       std::sort(ranges->begin(), ranges->end());
       ranges->erase(std::unique(ranges->begin(), ranges->end()), ranges->end());

@@ -6,15 +6,21 @@
 #include <state/block.hpp>
 
 #include <map>
+#include <string>
 #include <vector>
 
 namespace hyperlattice {
 
+/// Returns the rank of each of so many blocks: ranges of blocks, in their order.
+std::vector<int> owners_of(std::size_t blocks, int ranks);
+
+/// Returns why a step may read or change what any block has, as a clause; "" if it does not.
+std::string needs_whole(const Model& model);
+
 class Halo {
  public:
-  /// `owners`: the rank of each block.
-  Halo(const Model& model, const Layout& layout, const std::vector<int>& owners,
-       const Ranks& ranks);
+  /// `owners`: the rank of each block; `rank`: this one.
+  Halo(const Model& model, const Layout& layout, const std::vector<int>& owners, int rank);
 
   /// Sends the present state of own rows, and stores that of other ranks' rows in their blocks.
   void exchange(std::vector<Block>& blocks, Ranks& ranks);
