@@ -1,6 +1,8 @@
 #include <host/plugin_call.hpp>
 #include <ranks/ranks.hpp>
 
+#include <spdlog/fmt/fmt.h>
+
 #include <exception>
 #include <limits>
 
@@ -64,7 +66,10 @@ std::int64_t Ranks::meet(Meeting place, std::int64_t number, const Failure& mine
   agreed_ = {said[4], said[5]};
   if (said[0] == 0) {
     if (said[1] != -said[2])
-      throw std::logic_error("the ranks of the run are at different places of the program");
+      throw std::logic_error(fmt::format(
+          "the ranks of the run are at different places of the program, {} to {}: an error of "
+          "Hyperlattice",
+          -said[2], said[1]));
     return said[3];
   }
   const int from = count() - static_cast<int>(said[0]);

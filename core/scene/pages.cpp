@@ -176,6 +176,14 @@ Json options_json(std::span<const Option> options, std::span<const OldName> old_
   return json;
 }
 
+/// Returns how a component is used, as a block of code.
+std::string example_text(const ComponentInfo& info) {
+  if (info.family == Family::engines) return "```sh\nmpirun -n 4 hyperlattice run scene.json\n```";
+  const std::string stage = example_stage(info).dump();
+  return fmt::format("```json\n{}\n```",
+                     info.family == Family::failures ? "\"failure\": " + stage : stage);
+}
+
 }  // namespace
 
 std::string component_page(const Component& component) {
@@ -193,12 +201,10 @@ std::string component_page(const Component& component) {
     page += fmt::format("\nAs every component of the family {}:\n\n", family_name(info.family));
     table(page, common.options, common.old_names, object_keys(info.family));
   }
-  page += "\nNumbers are in the unit given; a text with a unit, such as \"1 mm\", is converted.\n";
-  const Json stage = example_stage(info);
-  section(
-      page, "Example",
-      fmt::format("```json\n{}\n```",
-                  info.family == Family::failures ? "\"failure\": " + stage.dump() : stage.dump()));
+  if (!info.options.empty() || !common.options.empty())
+    page +=
+        "\nNumbers are in the unit given; a text with a unit, such as \"1 mm\", is converted.\n";
+  section(page, "Example", example_text(info));
   section(page, "Fields", fields_table(info));
   section(page, "Restrictions", info.restrictions);
   section(page, "Source", info.source);

@@ -48,7 +48,7 @@ const BadPlugin bad_plugins[] = {
     {"failures.empty", "failures.empty.so: is an empty file"},
     {"failures.cut_short", "failures.cut_short.so: is damaged or cut short"},
     {"failures.old_interface",
-     "failures.old_interface.so: interface version 999, this Hyperlattice has 3: rebuild it "
+     "failures.old_interface.so: interface version 999, this Hyperlattice has 4: rebuild it "
      "against these headers"},
     {"failures.old_strings",
      "failures.old_strings.so: C++ library ABI (_GLIBCXX_USE_CXX11_ABI) 0, this Hyperlattice has "

@@ -177,6 +177,7 @@ TEST(MalformedScenesTable, TheBaseIsGoodAndResolvedReadsBackAsItself) {
 TEST(MalformedScenesTable, ExamplesOfAllPagesAreGood) {
   Host host;
   for (const Component* component : host.load_all()) {
+    if (component->info.family == Family::engines) continue;  // no scene names one
     const auto names_a_file = [](const Option& option) { return option.kind == OptionKind::file; };
     if (std::any_of(component->info.options.begin(), component->info.options.end(), names_a_file))
       continue;  // such a page has no example
