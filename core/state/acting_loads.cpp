@@ -173,14 +173,14 @@ bool ActingLoads::start_motion(double step) {
         block.velocity[c].set(support.index, now);
         const double gained = 0.5 * support.mass * (now * now - before * before);
         if (clock_.steps() == 0) {
-          changed = true;
+          changed = changed || blocks_.is_mine(block);  // other ranks' blocks may be out of date
         } else {
           part.reaction_work += gained;
           support.reaction_work += gained;
         }
       }
     }
-  return changed;
+  return blocks_.ranks().meet(Ranks::Meeting::state, changed ? 1 : 0) > 0;
 }
 
 void ActingLoads::set_goals(double time) {

@@ -13,7 +13,8 @@ namespace hyperlattice {
 
 /// Zeros in memory aligned to cache lines. The thread that makes the array writes it first, so that
 /// the memory is local to that thread.
-/// Says that an array is filled later: the system gives memory only to what is written.
+/// Says that an array is filled later: until then its numbers mean nothing, and the system gives
+/// memory only to what is written.
 struct FilledLater {};
 
 template <class T>
