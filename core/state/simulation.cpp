@@ -41,7 +41,10 @@ Simulation::~Simulation() = default;
 
 void Simulation::set_damping(double alpha, double rate) { state_->sweeps.set_damping(alpha, rate); }
 void Simulation::set_local_steps(double time_step, std::int64_t parts) {
-  if (parts > 1) state_->blocks.keep_whole();
+  if (parts > 1) {
+    state_->blocks.keep_whole();
+    gather();
+  }
   state_->local.start(time_step, parts);
 }
 /// Returns the state with all blocks up to date.
