@@ -5,6 +5,7 @@ namespace hyperlattice {
 
 void Simulation::archive(Archive& archive) {
   state_->blocks.archive(archive);
+  state_->added.archive(archive);
   state_->sweeps.archive(archive);
   state_->clock.archive(archive);
   state_->loads.archive(archive);

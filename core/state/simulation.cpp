@@ -18,6 +18,10 @@ void Simulation::set_damping(double alpha, double rate) { state_->sweeps.set_dam
 void Simulation::set_local_steps(double time_step, std::int64_t parts) {
   state_->local.start(time_step, parts);
 }
+void Simulation::set_added_mass(double time_step) { state_->set_added_mass(time_step); }
+double Simulation::inertia(Particle particle) const {
+  return state_->blocks.model().mass(particle) + state_->added.of(particle);
+}
 void Simulation::step(double time_step) { state_->step(time_step); }
 void Simulation::set_time(double time) { state_->clock.set(time); }
 double Simulation::time() const { return state_->clock.time(); }
