@@ -93,7 +93,7 @@ SpringExtremes spring_extremes(const Model& model, const Simulation& simulation,
     if (from[p].longest.value > state.longest.value) state.longest = from[p].longest;
     if (from[p].shortest.value < state.shortest.value) state.shortest = from[p].shortest;
     if (from[p].closing.value > state.closing.value) state.closing = from[p].closing;
-    const double mass = model.mass(p), square = now[p].value() / mass;
+    const double mass = simulation.inertia(p), square = now[p].value() / mass;
     if (square > most_now) {
       most_now = square;
       state.stiffest = p;
@@ -104,9 +104,10 @@ SpringExtremes spring_extremes(const Model& model, const Simulation& simulation,
   return state;
 }
 
-std::string likely_cause(const Model& model, const SpringExtremes& state, double time_step) {
+std::string likely_cause(const Model& model, const SpringExtremes& state, double time_step,
+                         double critical) {
   constexpr double crosses = 0.5, far = 1.5, folded = 0.5;
-  const double critical = model.step_limit.time_step, present = state.critical * critical;
+  const double present = state.critical * critical;
   const auto ends = [&](const SpringExtremes::Extreme& extreme) {
     return fmt::format("at {} and {}", place_of(model, extreme.a), place_of(model, extreme.b));
   };

@@ -28,7 +28,8 @@ struct SpringExtremes {
 SpringExtremes spring_extremes(const Model& model, const Simulation& simulation, double time_step);
 
 /// Returns one or two sentences: the likeliest cause, and what to change; empty if the springs show
-/// nothing unusual.
-std::string likely_cause(const Model& model, const SpringExtremes& state, double time_step);
+/// nothing unusual. `critical`: critical time step at rest, s.
+std::string likely_cause(const Model& model, const SpringExtremes& state, double time_step,
+                         double critical);
 
 }  // namespace hyperlattice

@@ -17,6 +17,11 @@ Guard::Guard(const Model& model, const Simulation& simulation)
     shortest_ = std::min(shortest_, norm(list.positions[spring.b] - list.positions[spring.a]));
 }
 
+double Guard::critical() const {
+  const double own = model_.step_limit.time_step;
+  return stage_->mass_scaling ? std::max(own, stage_->mass_scaling->time_step()) : own;
+}
+
 void Guard::check_motion(double time_step) const {
   double speed = 0;
   bool finite = true;
@@ -25,7 +30,7 @@ void Guard::check_motion(double time_step) const {
   // A body may fly faster than its own waves, but no sound motion is as fast as this.
   constexpr double spacings = 100;
   // Implicit steps may be much longer than the critical one.
-  const double step = std::min(time_step, model_.step_limit.time_step);
+  const double step = std::min(time_step, critical());
   if (speed * step > spacings * model_.body.grid.spacing)
     fail("a particle moves by more than 100 lattice spacings in one step", time_step);
 }
@@ -52,7 +57,7 @@ std::string Guard::early_warning(const EnergyBalance& balance, double time_step)
     return {};
   has_warned_ = true;
   const std::string cause =
-      likely_cause(model_, spring_extremes(model_, simulation_, time_step), time_step);
+      likely_cause(model_, spring_extremes(model_, simulation_, time_step), time_step, critical());
   if (cause.empty()) return {};
   return fmt::format(
       "the error of the energy balance is {:.2g} of the largest energy at {:.6g} s. {}",
@@ -87,7 +92,8 @@ void Guard::fail(const std::string& what, double time_step) const {
   if (material.surface) law += fmt::format(", {}", material.surface->stage->component->type());
   std::string cause;
   if (finite)
-    cause = likely_cause(model_, spring_extremes(model_, simulation_, time_step), time_step);
+    cause = likely_cause(model_, spring_extremes(model_, simulation_, time_step), time_step,
+                         critical());
   if (!cause.empty()) cause = " " + cause;
   throw RunError(fmt::format(
       "step {}, t = {:.6g} s: {}. {} particle {} at ({:.4g}, {:.4g}, {:.4g}) m{}, law {}. "
@@ -95,7 +101,7 @@ void Guard::fail(const std::string& what, double time_step) const {
       simulation_.steps(), simulation_.time(), what,
       finite ? "The fastest is" : "The first bad one is", particle, x.x, x.y, x.z,
       finite ? fmt::format(" with {:.4g} m/s", speed) : std::string(), law, time_step,
-      time_step / model_.step_limit.time_step, model_.step_limit.time_step, cause));
+      time_step / critical(), critical(), cause));
 }
 
 }  // namespace hyperlattice

@@ -29,6 +29,8 @@ class Guard {
   void check_balance(const EnergyBalance& balance, double time_step) const;
 
  private:
+  /// Returns the critical time step of the stage at rest, s.
+  double critical() const;
   [[noreturn]] void fail(const std::string& what, double time_step) const;
 
   const Model& model_;

@@ -133,11 +133,14 @@ void StageCalls::meet_end(double time_step) {
 
 void StageCalls::run() {
   const Stage& stage = *stage_.stage;
+  simulation_.set_added_mass(stage_.mass_scaling ? stage_.mass_scaling->time_step() : 0);
   simulation_.set_damping(stage_.plan.damping);
   simulation_.set_local_steps(stage_.plan.local.time_step, stage_.plan.local.parts);
   if (stage_.plan.at_rest && stage_.plan.time_step > 0)
     simulation_.hold_time(stage_.plan.end_time);  // otherwise the solver sets the time
-  const SolverFacts facts = solver_facts(model_, stage_.start_time);
+  SolverFacts facts = solver_facts(model_, stage_.start_time);
+  if (stage_.mass_scaling)
+    facts.critical_time_step = std::max(facts.critical_time_step, stage_.mass_scaling->time_step());
   const auto failed = refusal_of(stage, "run", [&](const Complaint& why) {
     const bool done =
         stage.functions<SolverFunctions>().run(stage_.component.get(), facts, host_, why);

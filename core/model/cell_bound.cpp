@@ -58,16 +58,6 @@ Eigen::MatrixXd stiffness_of_cell(const Model& model, std::uint8_t material) {
   return stiffness;
 }
 
-/// Returns omega^2, 1/s2, of the stiffest motion of one free cell, with its share of the springs
-/// and of the masses.
-double stiffest(const Model& model, std::uint8_t material) {
-  const Eigen::MatrixXd stiffness =
-      corners / model.kinds.masses[material] * stiffness_of_cell(model, material);
-  return numerics::SymmetricEigen<Eigen::MatrixXd>(stiffness, Eigen::EigenvaluesOnly)
-      .eigenvalues()
-      .maxCoeff();
-}
-
 /// The product of M^-1/2 K M^-1/2 of a body of cells and a vector, [particle][component].
 class ScaledStiffness {
  public:
@@ -124,10 +114,18 @@ class ScaledStiffness {
 
 }  // namespace
 
+double cell_bound(const Model& model, std::uint8_t material) {
+  const Eigen::MatrixXd stiffness =
+      corners / model.kinds.masses[material] * stiffness_of_cell(model, material);
+  return numerics::SymmetricEigen<Eigen::MatrixXd>(stiffness, Eigen::EigenvaluesOnly)
+      .eigenvalues()
+      .maxCoeff();
+}
+
 double cell_bound(const Model& model) {
   double largest = 0;
   for (std::size_t material = 0; material < model.materials.size(); ++material)
-    largest = std::max(largest, stiffest(model, static_cast<std::uint8_t>(material)));
+    largest = std::max(largest, cell_bound(model, static_cast<std::uint8_t>(material)));
   return largest;
 }
 

@@ -147,19 +147,25 @@ void limit_step(Model& model, std::size_t n, InfiniteLattice lattice, bool unsta
   model.step_limit.time_step = material.critical_time_step = step_of(stiffness, material.mass);
 }
 
+/// Returns the stable step, s, that the law of a material leaves of `elastic`, s.
+double stable_step_of_law(const Material& material, double elastic) {
+  const auto stable_step = material.stage->functions<MaterialFunctions>().stable_step;
+  if (stable_step == nullptr) return elastic;
+  double step = 0;
+  call(*material.stage, "stable_time_step", [&](const Complaint& why) {
+    return stable_step(material.component.get(), elastic, step, why);
+  });
+  if (!(step > 0))
+    throw plugin_error(*material.stage, "stable_time_step",
+                       fmt::format("it gives a time step of {} s", step));
+  return step;
+}
+
 /// Shortens the critical step to the stable step of laws that are not purely elastic.
 void limit_by_laws(Model& model) {
   const double elastic = model.step_limit.time_step;
   for (const Material& material : model.materials) {
-    const auto stable_step = material.stage->functions<MaterialFunctions>().stable_step;
-    if (stable_step == nullptr) continue;
-    double step = 0;
-    call(*material.stage, "stable_time_step", [&](const Complaint& why) {
-      return stable_step(material.component.get(), elastic, step, why);
-    });
-    if (!(step > 0))
-      throw plugin_error(*material.stage, "stable_time_step",
-                         fmt::format("it gives a time step of {} s", step));
+    const double step = stable_step_of_law(material, elastic);
     if (!(step < model.step_limit.time_step)) continue;
     model.step_limit.time_step = step;
     model.step_limit.because +=
@@ -221,6 +227,13 @@ void find_elastic_step(Model& model, Faults& faults) {
 }
 
 }  // namespace
+
+double stable_step_of_laws(const Model& model, double elastic) {
+  double step = elastic;
+  for (const Material& material : model.materials)
+    step = std::min(step, stable_step_of_law(material, elastic));
+  return step;
+}
 
 void find_critical_step(Model& model, Faults& faults) {
   const std::size_t before = faults.size();

@@ -29,6 +29,9 @@ class StiffnessBound {
 /// the cells, so for any motion u.K.u / u.M.u is at most the largest value of a single free cell.
 /// The bound is exact for a body of one cell.
 double cell_bound(const Model& model);
+/// Returns omega^2, 1/s2, of the stiffest motion of one free cell of a material, with its share of
+/// the springs and of the masses.
+double cell_bound(const Model& model, std::uint8_t material);
 /// Returns the largest frequency omega, 1/s, of a body of cells from 25 steps of Lanczos's method
 /// (Golub and Van Loan 2013, section 10.1), increased by 2 %: they find it from below. Costs as
 /// much as some hundred time steps.
@@ -44,9 +47,15 @@ struct ListedBound {
   bool all_positive = true;  ///< no spring has a negative stiffness: the body is stable
 };
 ListedBound listed_bound(const Model& model);
+/// Returns that StiffnessBound of each particle, N/m.
+std::vector<double> listed_bounds(const Model& model);
 /// Returns the largest frequency omega, 1/s, of a listed body with volumetric energies and without
 /// a membrane, as iterated_frequency() does for cells. The bound is about twice as large.
 double iterated_frequency_of_list(const Model& model);
+
+/// Returns the stable step, s, that laws leave of `elastic`, s, the stable step of their springs
+/// alone: shorter if a law is not purely elastic.
+double stable_step_of_laws(const Model& model, double elastic);
 
 /// Sets the model's critical time step and the sentence about what limits it: exact for one
 /// material and whole particles, a safe bound otherwise. Adds a fault for each unstable material,

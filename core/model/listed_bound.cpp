@@ -25,14 +25,12 @@ void add_volumes(const NodalVolumes& volumes, std::vector<StiffnessBound>& sums)
 
 }  // namespace
 
-ListedBound listed_bound(const Model& model) {
+std::vector<double> listed_bounds(const Model& model) {
   const Body& body = model.body;
   std::vector<StiffnessBound> sums(body.particles);
-  ListedBound found;
   for (std::uint32_t n = 0; n < body.listed.springs.size(); ++n) {
     const ListedSpring& spring = body.listed.springs[n];
     const SpringProperties properties = model.spring_properties(spring.a, spring.b, n);
-    found.all_positive &= properties.stiffness > 0 && properties.cross_stiffness >= 0;
     const SpringConstants constants{properties.stiffness, properties.cross_stiffness, infinity};
     sums[spring.a].add(geometry_of(properties), 1, constants, body.grid.membrane_distance,
                        model.springs.choice.membrane);
@@ -40,15 +38,35 @@ ListedBound listed_bound(const Model& model) {
                        model.springs.choice.membrane);
   }
   if (model.nodal_volumes) add_volumes(*model.nodal_volumes, sums);
+  std::vector<double> bounds;
+  bounds.reserve(body.particles);
   for (Particle p = 0; p < body.particles; ++p) {
-    const MaterialConstants& constants = model.materials[model.kinds.material(p)].constants;
     if (model.springs.choice.membrane == KernelChoice::Membrane::free) {
+      const MaterialConstants& constants = model.materials[model.kinds.material(p)].constants;
       sums[p].add_alpha(body.share(p) * constants.alpha_ratio * constants.base_stiffness);
-      found.all_positive &= constants.alpha_ratio >= 0;
     }
-    const double square = sums[p].value() / model.mass(p);
-    if (square > found.square) found = {square, p, found.all_positive};
+    bounds.push_back(sums[p].value());
   }
+  return bounds;
+}
+
+ListedBound listed_bound(const Model& model) {
+  const Body& body = model.body;
+  ListedBound found;
+  for (std::uint32_t n = 0; n < body.listed.springs.size(); ++n) {
+    const ListedSpring& spring = body.listed.springs[n];
+    const SpringProperties properties = model.spring_properties(spring.a, spring.b, n);
+    found.all_positive &= properties.stiffness > 0 && properties.cross_stiffness >= 0;
+  }
+  if (model.springs.choice.membrane == KernelChoice::Membrane::free)
+    for (const Material& material : model.materials)
+      found.all_positive &= material.constants.alpha_ratio >= 0;
+  const std::vector<double> bounds = listed_bounds(model);
+  for (Particle p = 0; p < body.particles; ++p)
+    if (const double square = bounds[p] / model.mass(p); square > found.square) {
+      found.square = square;
+      found.particle = p;
+    }
   return found;
 }
 

@@ -149,6 +149,15 @@ void estimate_memory(Plan& plan) {
   for (const BlockLayout& block : layout->blocks)
     bytes += static_cast<double>(block.rows.size() * 2 * sizeof(Row));
 
+  double added_bytes = 0;  // of added mass: lists, and a boundary particle each
+  for (const PlannedStage& stage : plan.stages)
+    if (stage.mass_scaling)
+      added_bytes = std::max(
+          added_bytes,
+          static_cast<double>(stage.mass_scaling->particles().size() *
+                              (sizeof(BoundaryParticle) + 4 * sizeof(MassScaling::Heavy))));
+  bytes += added_bytes;
+
   // Writers write one after the other, but may keep what they have allocated.
   for (const auto& [writer, allocated] : plan.writer_bytes) bytes += allocated;
   double solver_bytes = 0;

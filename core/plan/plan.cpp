@@ -1,5 +1,6 @@
 #include <base/errors.hpp>
 #include <model/build.hpp>
+#include <plan/added_mass.hpp>
 #include <plan/coordination.hpp>
 #include <plan/damage.hpp>
 #include <plan/estimates.hpp>
@@ -54,7 +55,11 @@ void plan_stages(Plan& plan, Faults& faults) {
     planned.stage = stage;
     planned.component = make_component(*stage);
     planned.start_time = start;
-    const SolverFacts facts = solver_facts(*plan.model, start);
+    SolverFacts facts = solver_facts(*plan.model, start);
+    add_mass(planned, *plan.model, faults);
+    if (planned.mass_scaling)
+      facts.critical_time_step =
+          std::max(facts.critical_time_step, planned.mass_scaling->time_step());
     const auto refused = refusal_of(*stage, "plan", [&](const Complaint& why) {
       return stage->functions<SolverFunctions>().plan(planned.component.get(), facts, planned.plan,
                                                       why);
@@ -63,6 +68,9 @@ void plan_stages(Plan& plan, Faults& faults) {
       add_all(faults, objection(*plan.scene, *stage, *refused));
     else
       check_plan(*stage, planned);
+    if (!refused) check_added_mass(planned, faults);
+    if (std::string warning = added_mass_warning(planned); !warning.empty())
+      plan.model->warnings.push_back(std::move(warning));
     const bool is_static = planned.plan.at_rest && planned.plan.time_step == 0;
     if (!refused && is_static && facts.damages && !planned.plan.grows_damage)
       faults.add(

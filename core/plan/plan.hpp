@@ -3,6 +3,7 @@
 #pragma once
 
 #include <model/body_figures.hpp>
+#include <model/mass_scaling.hpp>
 #include <plan/fields.hpp>
 #include <plan/identity.hpp>
 #include <plan/threads.hpp>
@@ -13,6 +14,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +30,7 @@ struct PlannedStage {
   ComponentPointer component;
   double start_time = 0;
   SolverPlan plan;
+  std::optional<MassScaling> mass_scaling;  ///< the mass that the stage adds, if it does
 };
 
 /// The table that a probe will write.

@@ -1,4 +1,5 @@
 #include <model/arithmetic.hpp>
+#include <plan/added_mass.hpp>
 #include <plan/coordination.hpp>
 #include <plan/damage.hpp>
 #include <plan/estimates.hpp>
@@ -92,6 +93,8 @@ nlohmann::json common_facts(const Plan& plan) {
                       {"stable_time_step", stage.plan.stable_time_step},
                       {"damping", stage.plan.damping},
                       {"at_rest", stage.plan.at_rest}});
+    if (stage.mass_scaling)
+      stages.back()["added_mass"] = added_mass_json(*stage.mass_scaling, model);
   }
   auto left_out = nlohmann::json::array();
   for (const LeftOut& left : plan.left_out)

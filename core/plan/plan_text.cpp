@@ -1,5 +1,6 @@
 // The plan as text for people. Every number comes from the JSON form, so that the two agree.
 #include <base/figures.hpp>
+#include <plan/added_mass.hpp>
 #include <plan/damage.hpp>
 #include <plan/estimates.hpp>
 #include <plan/text_page.hpp>
@@ -119,8 +120,11 @@ std::string plan_text(const Plan& plan) {
       for (const auto& [name, value] : damage_lines(entry)) page.line(name, value);
   page.line("critical time step",
             fmt::format("{:.6g} s: {}", number("critical_time_step"), word("critical_because")));
-  for (const PlannedStage& stage : plan.stages)
+  for (const PlannedStage& stage : plan.stages) {
     page.line(stage.stage->component->type(), stage_text(stage));
+    if (stage.mass_scaling)
+      page.line("added mass", added_mass_text(*stage.mass_scaling, *plan.model));
+  }
   page.line("steps", count("steps"));
   page.line("output", fmt::format("about {}", bytes_text(number("output_bytes"))));
   page.line("run time", run_time_text(plan));

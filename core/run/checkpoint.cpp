@@ -24,10 +24,9 @@ constexpr std::string_view head_tag = "head", state_tag = "stat";
 constexpr int version = 4;  // of the checkpoint's format
 
 std::string text_of(const CheckpointHead& head) {
-  nlohmann::json json{{"version", version},
-                      {"identity", identity_json(head.identity)},
-                      {"blocks", head.blocks},
-                      {"at_start", head.at_start}};
+  nlohmann::json json{{"version", version},    {"identity", identity_json(head.identity)},
+                      {"blocks", head.blocks}, {"at_start", head.at_start},
+                      {"step", head.step},     {"time", head.time}};
   auto& tables = json["tables"] = nlohmann::json::array();
   for (const TableMark& table : head.tables)
     tables.push_back(
@@ -44,6 +43,8 @@ CheckpointHead read_head(RecordReader& records, const fs::path& file) {
     head.identity = read_identity(json.at("identity"));
     head.blocks = json.at("blocks").get<std::int32_t>();
     head.at_start = json.at("at_start").get<bool>();
+    head.step = json.at("step").get<std::uint64_t>();
+    head.time = json.at("time").get<double>();
     for (const auto& table : json.at("tables"))
       head.tables.push_back(
           {table.at("name").get<std::string>(),
@@ -87,7 +88,7 @@ Checkpoint newest(const fs::path& directory) {
 }  // namespace
 
 CheckpointHead checkpoint_head(const Plan& plan, bool at_start) {
-  return {plan.identity, plan.blocks, at_start, {}};
+  return {plan.identity, plan.blocks, at_start, 0, 0, {}};
 }
 
 Checkpoint find_checkpoint(const Plan& plan, const fs::path& directory) {
@@ -119,6 +120,21 @@ bool holds_progress(const fs::path& directory) {
     }
   }
   return false;
+}
+
+std::string place_of_checkpoint(const fs::path& directory) {
+  for (const char* name : {checkpoint_file, earlier_checkpoint_file}) {
+    const fs::path file = directory / name;
+    if (!is_there(file)) continue;
+    try {
+      const CheckpointHead head = verified(file).head;
+      if (head.at_start) return {};
+      return fmt::format("step {}, t = {:.6g} s, in {}", head.step, head.time, file.string());
+    } catch (const std::runtime_error&) {
+      continue;
+    }
+  }
+  return {};
 }
 
 void write_checkpoint(const fs::path& directory, const CheckpointHead& head, const Visit& state) {

@@ -16,7 +16,9 @@ namespace hyperlattice {
 struct CheckpointHead {
   Identity identity;  ///< what the run depends on
   std::int32_t blocks = 1;
-  bool at_start = false;          ///< the run has made no progress that is worth keeping
+  bool at_start = false;  ///< the run has made no progress that is worth keeping
+  std::uint64_t step = 0;
+  double time = 0;                ///< s
   std::vector<TableMark> tables;  ///< the tables that the run had written
 };
 
@@ -35,6 +37,9 @@ Checkpoint find_checkpoint(const Plan& plan, const std::filesystem::path& direct
 /// Throws InputError if a folder has no checkpoint, or no list of the run's files.
 void must_be_resumable(const std::filesystem::path& directory);
 
+/// Returns where in the run the folder's newest checkpoint is, as a clause for messages: "step 12,
+/// t = 1e-05 s, in checkpoint.bin". Empty if there is none worth keeping, or a damaged one.
+std::string place_of_checkpoint(const std::filesystem::path& directory);
 /// Returns whether the folder has a checkpoint worth keeping; a damaged one counts.
 bool holds_progress(const std::filesystem::path& directory);
 

@@ -2,7 +2,7 @@
 
 namespace hyperlattice {
 
-void Checkpoints::save(std::uint64_t steps) {
+void Checkpoints::save(std::uint64_t steps, double time) {
   drain_();
   gather_();
   saved_ = std::chrono::steady_clock::now();
@@ -10,6 +10,8 @@ void Checkpoints::save(std::uint64_t steps) {
   stopwatch_.lap();  // a run that continues from here counts this part too
   stopwatch_.output([&] {
     CheckpointHead head = checkpoint_head(plan_, steps == 0);
+    head.step = steps;
+    head.time = time;
     if (!head.at_start)
       // The data that the checkpoint relies on must be on the disk before it.
       head.tables = folder_.sync();
@@ -18,14 +20,14 @@ void Checkpoints::save(std::uint64_t steps) {
   saved_ = std::chrono::steady_clock::now();
 }
 
-void Checkpoints::save_if_due(std::uint64_t steps, std::uint64_t stage_steps) {
+void Checkpoints::save_if_due(std::uint64_t steps, double time, std::uint64_t stage_steps) {
   constexpr std::uint64_t every = 16;  // steps; a clock costs about as much as a hundred particles
   if (!(seconds_between_ > 0) || stage_steps == 0 || stage_steps % every != 0) return;
   // The clock of one rank decides for all.
   if (ranks_.is_first() && seconds_since(saved_) >= seconds_between_) ranks_.wish(Wish::save);
   if (!ranks_.agreed(Wish::save)) return;
   ranks_.done(Wish::save);
-  save(steps);
+  save(steps, time);
 }
 
 }  // namespace hyperlattice

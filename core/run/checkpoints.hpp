@@ -26,11 +26,11 @@ class Checkpoints {
         gather_(std::move(gather)),
         state_(std::move(state)) {}
 
-  /// Saves the state after this number of steps of the run; before the first one nothing but the
-  /// head.
-  void save(std::uint64_t steps);
+  /// Saves the state after this number of steps of the run, at `time`, s; before the first step
+  /// nothing but the head.
+  void save(std::uint64_t steps, double time);
   /// Saves the state if the last checkpoint is old. `stage_steps`: steps of the present stage.
-  void save_if_due(std::uint64_t steps, std::uint64_t stage_steps);
+  void save_if_due(std::uint64_t steps, double time, std::uint64_t stage_steps);
 
  private:
   const Plan& plan_;

@@ -143,11 +143,28 @@ void tidy_up(RunFolder& folder, const Outcome& outcome, bool has_checkpoint) {
   }
 }
 
+/// Returns a sentence about the last state that a failed run left to go on from.
+std::string about_last_state(const std::filesystem::path& directory, const RunOptions& options) {
+  if (const std::string place = place_of_checkpoint(directory); !place.empty())
+    return fmt::format(
+        "The newest checkpoint is of {}: --resume goes on from it, --overwrite gives it up.",
+        place);
+  if (options.checkpoint_every > 0)
+    return fmt::format(
+        "There is no checkpoint: the run failed within the {:g} s of --checkpoint-every; fewer "
+        "seconds leave one.",
+        options.checkpoint_every);
+  return "There is no checkpoint: --checkpoint-every SECONDS asks for some.";
+}
+
 /// Writes the summary. The checkpoint is removed when the run is done and the summary is on the
 /// disk; a failed run keeps its checkpoint.
-void conclude(const Plan& plan, RunFolder& folder, Outcome& outcome) {
+void conclude(const Plan& plan, const RunOptions& options, RunFolder& folder, Outcome& outcome) {
   const std::filesystem::path& directory = folder.directory();
   const bool has_checkpoint = holds_progress(directory);
+  if (outcome.exit_code == exit_run)
+    outcome.reason +=
+        (outcome.reason.ends_with('.') ? " " : ". ") + about_last_state(directory, options);
   try {
     if (outcome.exit_code == exit_done && has_checkpoint) folder.sync();
     try {
@@ -169,7 +186,7 @@ void conclude(const Plan& plan, RunFolder& folder, Outcome& outcome) {
                  outcome.steps == 1 ? "" : "s", outcome.solve_seconds, directory.string());
   else
     spdlog::error("{}: {}", outcome.status, outcome.reason);
-  if (outcome.exit_code != exit_done && has_checkpoint)
+  if (outcome.exit_code != exit_done && outcome.exit_code != exit_run && has_checkpoint)
     spdlog::info("a checkpoint is in {}: --resume goes on from it, --overwrite gives it up",
                  directory.string());
 }
@@ -203,7 +220,7 @@ int run(Plan& plan, const RunOptions& options, Ranks& ranks) {
   solve(plan, options, *folder, resumed, std::move(simulation), ranks, outcome);
   if (outcome.exit_code == exit_interrupted)
     forget_stop();  // a request after the end is for the next run of a study
-  if (ranks.is_first()) conclude(plan, *folder, outcome);
+  if (ranks.is_first()) conclude(plan, options, *folder, outcome);
   return outcome.exit_code;
 }
 

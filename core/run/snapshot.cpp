@@ -242,7 +242,8 @@ void SnapshotSource::kinetic_energy_density(std::vector<double>& numbers) {
   for (Particle p = 0; p < model_.body.particles; ++p) {
     const Vec3 v{velocities[3 * p], velocities[3 * p + 1], velocities[3 * p + 2]};
     const double rise = rates.empty() ? 0 : rates[p],
-                 density = model_.kinds.masses[model_.kinds.of(p)] / model_.body.grid.site_volume;
+                 density = model_.kinds.masses[model_.kinds.of(p)] / model_.body.grid.site_volume *
+                           (simulation_.inertia(p) / model_.mass(p));
     numbers[p] = density / 2 * (dot(v, v) + rise * rise);
   }
 }
@@ -264,7 +265,7 @@ void SnapshotSource::force(std::vector<double>& numbers) {
 
 void SnapshotSource::acceleration(std::vector<double>& numbers) {
   force(numbers);
-  for (std::size_t n = 0; n < numbers.size(); ++n) numbers[n] /= model_.mass(n / 3);
+  for (std::size_t n = 0; n < numbers.size(); ++n) numbers[n] /= simulation_.inertia(n / 3);
 }
 
 Resultant SnapshotSource::resultant(ForcesId forces, Vec3 about) {

@@ -38,7 +38,7 @@ void StageSequence::solve() {
   stopwatch_.start();
   while (stages_done_ < plan_.stages.size()) {
     ranks_.meet(Ranks::Meeting::stage);
-    if (must_stop()) return checkpoints_.save(simulation_.steps());
+    if (must_stop()) return checkpoints_.save(simulation_.steps(), simulation_.time());
     try {
       solve_stage(plan_.stages[stages_done_]);
     } catch (...) {
@@ -61,7 +61,7 @@ bool StageSequence::must_stop() {
 void StageSequence::solve_stage(const PlannedStage& stage) {
   const bool resumes = stage.plan.resumes;  // otherwise the stage is repeated from its start
   recorder_.start_stage(stage, is_resumed_);
-  if (!is_resumed_ && !resumes) checkpoints_.save(simulation_.steps());
+  if (!is_resumed_ && !resumes) checkpoints_.save(simulation_.steps(), simulation_.time());
   is_resumed_ = false;
   StageCalls::Hooks hooks;
   hooks.stepped = [this](double time_step) {
@@ -70,7 +70,7 @@ void StageSequence::solve_stage(const PlannedStage& stage) {
   };
   hooks.observe = [this, resumes] {
     recorder_.observe();
-    if (resumes) checkpoints_.save_if_due(simulation_.steps(), stage_steps_);
+    if (resumes) checkpoints_.save_if_due(simulation_.steps(), simulation_.time(), stage_steps_);
   };
   hooks.report = [this](const RestReport& report) { recorder_.take_report(report); };
   hooks.failing_motion = [this](const std::vector<double>& motion,
@@ -82,7 +82,7 @@ void StageSequence::solve_stage(const PlannedStage& stage) {
   if (must_stop()) {
     if (!resumes) return;
     recorder_.observe_once();
-    checkpoints_.save(simulation_.steps());
+    checkpoints_.save(simulation_.steps(), simulation_.time());
   }
   recorder_.end_stage();
   if (stage.plan.at_rest) simulation_.reset_energy_balance();

@@ -55,7 +55,12 @@ struct CommonSchema {
               "largest part of their distance by which the ends of a spring may come nearer in one "
               "step; beyond it the run stops before they pass through each other; 0: never")
           .at_least(0)
-          .fallback("0.5");
+          .fallback("0.5")
+          .add<&Options::mass_scaling>(
+              "mass_scaling", "s",
+              "of solvers that take explicit steps: critical time step that the stage gets; "
+              "particles whose own is shorter get mass; none if left out")
+          .positive();
     if (family == Family::writers || family == Family::probes)
       declared
           .add<&Options::every>("every", "s",

@@ -11,6 +11,7 @@ struct CommonOptions {
   std::optional<std::string> name;
   RegionId region;
   std::optional<double> record_every, every;
+  std::optional<double> mass_scaling;
   double energy_tolerance = 0, approach_limit = 0;
   bool first = true, last = true;
 };

@@ -53,6 +53,8 @@ struct Stage {
   double energy_tolerance = 0;
   /// solvers: part of their distance by which ends of a spring may come nearer in a step; 0: any
   double approach_limit = 0;
+  /// solvers: critical time step, s, that added mass gives the body; 0: no mass is added
+  double mass_scaling = 0;
 
   Family family() const { return component->info.family; }
   /// Returns the family's table of functions: stage.functions<LoadFunctions>().

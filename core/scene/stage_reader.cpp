@@ -30,6 +30,7 @@ void take_common(const CommonOptions& common, Stage& stage) {
   stage.record_every = common.record_every.value_or(0);
   stage.energy_tolerance = common.energy_tolerance;
   stage.approach_limit = common.approach_limit;
+  stage.mass_scaling = common.mass_scaling.value_or(0);
 }
 
 /// Returns the first name of a component's option, present or former, that is a key of the core,

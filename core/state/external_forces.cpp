@@ -72,7 +72,7 @@ Vec3 ExternalForces::force_of(const Block& block, const Contribution& part) cons
     if (((part.displaced | part.driven) >> c & 1u) == 0) continue;
     const double not_acting = (1 - loads_.gravity()) * model_.loads.acceleration[c];
     force[c] += reaction(block, part, c, support.velocity[c], clock_.last_step()) +
-                support.mass * not_acting;
+                model_.mass(part.particle) * not_acting;
   }
   return force;
 }

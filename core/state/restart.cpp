@@ -6,6 +6,7 @@ namespace hyperlattice {
 void Simulation::archive(Archive& archive) {
   if (!archive.restores()) gather_in_first();
   state_->blocks.archive(archive);
+  state_->added.archive(archive);
   state_->sweeps.archive(archive);
   state_->clock.archive(archive);
   state_->loads.archive(archive);

@@ -47,6 +47,11 @@ void Simulation::set_local_steps(double time_step, std::int64_t parts) {
   }
   state_->local.start(time_step, parts);
 }
+void Simulation::set_added_mass(double time_step) { state_->set_added_mass(time_step); }
+double Simulation::inertia(Particle particle) const {
+  return state_->blocks.model().mass(particle) + state_->added.of(particle);
+}
+
 /// Returns the state with all blocks up to date.
 Simulation::State& Simulation::whole() const {
   state_->blocks.gather();

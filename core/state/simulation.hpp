@@ -44,6 +44,11 @@ class Simulation {
   /// Lets the particles whose own stable step is below `time_step`, s, take `parts` steps within
   /// each step that follows (local_steps.hpp); `parts` 1: none do.
   void set_local_steps(double time_step, std::int64_t parts);
+  /// Gives particles added mass so that the critical step is at least `time_step`, s, in each step
+  /// that follows (added_mass.hpp); 0: none.
+  void set_added_mass(double time_step);
+  /// Returns the mass of a particle with its added mass, kg.
+  double inertia(Particle particle) const;
   /// Advances the body by a time step, s. A step of another length than the one before costs one
   /// more evaluation of all springs. Throws RunError if a load is not a number.
   void step(double time_step);

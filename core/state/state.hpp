@@ -2,6 +2,7 @@
 #pragma once
 
 #include <state/acting_loads.hpp>
+#include <state/added_mass.hpp>
 #include <state/block_set.hpp>
 #include <state/clock.hpp>
 #include <state/damage_field.hpp>
@@ -28,8 +29,9 @@ struct Simulation::State {
   SpringReview review{blocks, clock, damage};
   NodalPressures pressures{blocks};
   LocalForces local{blocks, loads, review};
+  AddedMass added{blocks};
   OtherRows other_rows{blocks, review, pressures, damage, local};
-  Sweeps sweeps{blocks, loads, review, pressures, damage, local, other_rows};
+  Sweeps sweeps{blocks, loads, review, pressures, damage, local, added, other_rows};
   WholeReview whole_review{blocks, review};
   FailureRecord failures{blocks, clock, pressures};
   EnergyAccount energy{blocks, clock, failures, sweeps};
@@ -42,6 +44,8 @@ struct Simulation::State {
 
   /// Advances the body by a step of this length, s.
   void step(double length);
+  /// Gives the body the critical step `time_step`, s, by added mass, between two steps; 0: none.
+  void set_added_mass(double time_step);
 
  private:
   void change_step(double length);

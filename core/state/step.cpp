@@ -1,5 +1,5 @@
-// A time step, and changes of its length: at a run's start, after a body was brought to rest, and
-// where a stage's steps differ from those before.
+// A time step, and changes of its length and of the mass: at a run's start, after a body was
+// brought to rest, and where a stage's steps differ from those before.
 //
 // The kick from v(n-1/2) to v(n+1/2) lasts half a step of the old length and half a step of the new
 // one, so that v(n) belongs to the time of the displacements for any lengths. The energy of the
@@ -28,6 +28,20 @@ void Simulation::State::change_step(double length) {
   const double back = last / 2, forward = length / 2, ratio = back / forward;
   const RowSums sums = sweeps.measure({back, forward, length, forward});
   energy.shift_start((ratio * ratio - 1) * (sums.kinetic_mean - sums.kinetic));
+}
+
+/// Velocities are those half a step before. They change so that the next step is that of the new
+/// mass from v(n) on. The error of the balance stays: the energy at the start takes up the change.
+void Simulation::State::set_added_mass(double time_step) {
+  if (time_step == added.time_step()) return;
+  if (clock.steps() == 0) return added.start(time_step);
+  const double back = clock.last_step() / 2, error = energy.balance().error;
+  added.kick(back, -1, sweeps.damping());
+  added.start(time_step);
+  sweeps.measure(Sweep::present(clock.last_step()));
+  added.kick(back, 1, sweeps.damping());
+  blocks.exchange_ranks();  // each rank knows the impulses of its own blocks
+  energy.shift_start(energy.balance().error - error);
 }
 
 }  // namespace hyperlattice

@@ -7,7 +7,7 @@
 namespace hyperlattice {
 
 Sweeps::Sweeps(BlockSet& blocks, ActingLoads& loads, const SpringReview& review,
-               NodalPressures& pressures, DamageField& damage, LocalForces& local,
+               NodalPressures& pressures, DamageField& damage, LocalForces& local, AddedMass& added,
                const OtherRows& other_rows)
     : blocks_(blocks),
       model_(blocks.model()),
@@ -16,6 +16,7 @@ Sweeps::Sweeps(BlockSet& blocks, ActingLoads& loads, const SpringReview& review,
       pressures_(pressures),
       damage_(damage),
       local_(local),
+      added_(added),
       other_rows_(other_rows),
       exact_(asked_for_exact_springs()) {}
 
@@ -36,6 +37,7 @@ std::int64_t Sweeps::step(const Sweep& sweep) {
     if (local_.empty()) loads_.set_supports(block, sweep);
     if (!damage_.empty()) damage_.watch_shortening(block);
     run_kernel(model_.springs.kernels().step, block, sweep.before, sweep.after, false);
+    if (!added_.empty()) added_.after_step(block, sweep.before, sweep.after, damping_);
     count_work(block, sweep.before + sweep.after);
   });
   loads_.check_answers();
@@ -55,6 +57,7 @@ RowSums Sweeps::measure(const Sweep& sweep) {
   blocks_.for_mine([&](Block& block) {
     if (local_.empty()) loads_.set_supports(block, sweep);
     run_kernel(model_.springs.kernels().measure, block, sweep.measured, 0, true);
+    if (!added_.empty()) added_.after_measurement(block, 2 * sweep.measured, damping_);
   });
   blocks_.gather_results();
   RowSums total;
@@ -162,7 +165,8 @@ KernelRequest Sweeps::request_for(Block& block, double back, double forward) con
   request.damping = damping_;
   request.damping_rate = damping_rate_;
   request.acceleration = model_.loads.acceleration;
-  request.boundary_particles = block.boundary_particles.data();
+  request.boundary_particles =
+      added_.empty() ? block.boundary_particles.data() : added_.before_kernel(block);
   request.scratch = block.scratch.get();
   request.damped_work = block.damped_work.data();
   request.fracture_work = block.fracture_work.empty() ? nullptr : block.fracture_work.data();

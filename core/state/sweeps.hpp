@@ -3,6 +3,7 @@
 #pragma once
 
 #include <state/acting_loads.hpp>
+#include <state/added_mass.hpp>
 #include <state/block_set.hpp>
 #include <state/local_steps.hpp>
 #include <state/other_rows.hpp>
@@ -13,11 +14,12 @@ namespace hyperlattice {
 class Sweeps {
  public:
   Sweeps(BlockSet& blocks, ActingLoads& loads, const SpringReview& review,
-         NodalPressures& pressures, DamageField& damage, LocalForces& local,
+         NodalPressures& pressures, DamageField& damage, LocalForces& local, AddedMass& added,
          const OtherRows& other_rows);
 
   /// Sets the damping: `alpha` of local damping and the rate of damping in proportion to mass, 1/s.
   void set_damping(double alpha, double rate);
+  double damping() const { return damping_; }  ///< alpha
   /// Advances all blocks by a step and counts the work of the loads. Returns the largest number of
   /// springs that broke in a rank; 0 if there is one rank. Throws RunError if a load is not a
   /// number.
@@ -50,6 +52,7 @@ class Sweeps {
   NodalPressures& pressures_;
   DamageField& damage_;
   LocalForces& local_;
+  AddedMass& added_;
   const OtherRows& other_rows_;
   double damping_ = 0, damping_rate_ = 0;  // local; in proportion to mass, 1/s
   const bool exact_;                       // whether kernels take exact springs

@@ -113,6 +113,16 @@ def local_steps(scene):
             stage["local_steps"] = 8
 
 
+def added_mass(scene):
+    """Two stages, of which the second adds mass to stiff particles."""
+    local_steps(scene)
+    scene["pipeline"][MATERIAL]["failure"] = {"type": "failures.rate", "limit": 1e-3, "reference": "1e5 1/s"}
+    first = next(stage for stage in scene["pipeline"] if stage["type"] == "solvers.explicit")
+    del first["local_steps"]
+    second = {**first, "end_time": "80 us", "mass_scaling": "0.2 us"}
+    scene["pipeline"].insert(scene["pipeline"].index(first) + 1, second)
+
+
 def rest_then_motion(scene):
     """A state of rest by Newton's method, implicit steps, then explicit ones."""
     del scene["pipeline"][MATERIAL]["failure"]
@@ -129,7 +139,7 @@ def relaxation(scene):
 
 
 CASES = [breaking, intact, floats, three_dimensions, partial_cells, volumetric_breaking, plastic, softening, rates, two_laws,
-         bcc, random_lattice, contact, cohesive, local_steps, rest_then_motion, relaxation]
+         bcc, random_lattice, contact, cohesive, local_steps, added_mass, rest_then_motion, relaxation]
 TIMES = ("wall_seconds", "nanoseconds_per_particle_step", "peak_memory_bytes", "expected_seconds",
          "expected_seconds_at_most")
 

@@ -23,9 +23,10 @@ json block(const json& more, const json& solver) {
 class Guards : public testing::Test {
  protected:
   /// Runs a scene that must fail. Returns the reason.
-  std::string reason(const json& scene) {
-    const Result result =
-        run_program({"run", write_scene(folder, scene), "--out", out, "--overwrite"});
+  std::string reason(const json& scene, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words{"run", write_scene(folder, scene), "--out", out, "--overwrite"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Result result = run_program(words);
     EXPECT_EQ(result.exit_code, 3) << result.err;
     const json summary = read_json(out + "/summary.json");
     EXPECT_EQ(summary.at("status"), "failed");
@@ -87,6 +88,31 @@ TEST_F(Guards, NameStretchedSpringsThatShortenTheCriticalStep) {
       {"run", write_scene(folder, block(stages, {{"end_time", "1 ms"}, {"safety", 0.75}})), "--out",
        out, "--overwrite"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
+TEST_F(Guards, NameTheNewestCheckpoint) {
+  const json held{{"type", "loads.fixed"}, {"on", "x_min"}};
+  const json force{
+      {"type", "loads.force"}, {"on", "x_max"}, {"total", {8000, 0, 0}}, {"rise", "0.2 ms"}};
+  const json scene = block(json::array({held, force}), {{"end_time", "1 ms"}, {"safety", 0.99}});
+  const std::string none = reason(scene);
+  EXPECT_NE(none.find("There is no checkpoint: the run failed within the 600 s"), std::string::npos)
+      << none;
+  EXPECT_NE(reason(scene, {"--checkpoint-every", "0"}).find("--checkpoint-every SECONDS asks"),
+            std::string::npos);
+  const std::string text = reason(scene, {"--checkpoint-every", "1e-9"});
+  const std::size_t at = text.find("The newest checkpoint is of step ");
+  ASSERT_NE(at, std::string::npos) << text;
+  // Checkpoints are due every 16 steps.
+  const int step =
+      std::stoi(text.substr(at + std::string("The newest checkpoint is of step ").size()));
+  EXPECT_GT(step, 0);
+  EXPECT_EQ(step % 16, 0);
+  EXPECT_NE(text.find("in " + out + "/checkpoint.bin: --resume goes on from it"), std::string::npos)
+      << text;
+  // It is there, and the run fails again as before.
+  const Result again = run_program({"run", folder.file("scene.json"), "--out", out, "--resume"});
+  EXPECT_EQ(again.exit_code, 3) << again.err;
 }
 
 TEST_F(Guards, AreSilentWhereNothingIsWrong) {

@@ -71,6 +71,11 @@ const Case cases[] = {
            {{"type", "failures.tuler_butcher"}, {"threshold", 5e-4}, {"impulse", 1e-11}}};
        scene["pipeline"][5]["end_time"] = "0.3 ms";  // springs are asked at every step
      }},
+    {"added_mass",
+     [](json& scene) {
+       scene["pipeline"][material].update({{"membrane", "none"}, {"poisson", 0.25}});
+       scene["pipeline"][5]["mass_scaling"] = "1 us";
+     }},
     {"after_rest",
      [](json& scene) {
        json& pipeline = scene["pipeline"];
