@@ -2,6 +2,7 @@
 #include <plan/precision.hpp>
 #include <run/failing_motion.hpp>
 #include <run/interrupt.hpp>
+#include <run/observer.hpp>
 #include <run/stage_sequence.hpp>
 
 #include <spdlog/spdlog.h>
@@ -35,7 +36,7 @@ void StageSequence::begin(const std::optional<Checkpoint>& resumed) {
 void StageSequence::solve() {
   stopwatch_.start();
   while (stages_done_ < plan_.stages.size()) {
-    if (stop_requested()) return checkpoints_.save(simulation_.steps());
+    if (must_stop(options_)) return checkpoints_.save(simulation_.steps());
     try {
       solve_stage(plan_.stages[stages_done_]);
     } catch (...) {
@@ -43,7 +44,7 @@ void StageSequence::solve() {
       throw;
     }
     stopwatch_.lap();
-    if (stop_requested()) return;
+    if (must_stop(options_)) return;
     ++stages_done_;
     stage_steps_ = 0;
   }
@@ -68,9 +69,13 @@ void StageSequence::solve_stage(const PlannedStage& stage) {
                                 const std::vector<double>& heights) {
     write_motion(motion, heights);
   };
-  hooks.must_stop = [] { return stop_requested(); };
+  if (RunObserver* const observer = options_.observer; observer != nullptr)
+    hooks.advanced = [this, observer](bool can_change) {
+      observer->advanced(simulation_, can_change);
+    };
+  hooks.must_stop = [this] { return must_stop(options_); };
   StageCalls(*plan_.model, simulation_, stage, plan_.threads, std::move(hooks), stage_steps_).run();
-  if (stop_requested()) {
+  if (must_stop(options_)) {
     if (!resumes) return;
     recorder_.observe_once();
     checkpoints_.save(simulation_.steps());

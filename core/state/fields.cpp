@@ -60,6 +60,27 @@ void Simulation::heights(std::vector<double>& values) const {
   if (state_->blocks.model().degrees_of_freedom == 4) copy({false, 3, 1}, values);
 }
 
+const void* Simulation::whole_array(bool velocity, int component) const {
+  const BlockSet& blocks = state_->blocks;
+  if (component >= blocks.model().degrees_of_freedom) return nullptr;
+  const Block* only = nullptr;
+  std::uint64_t begin = 0, end = 0;
+  bool is_whole = true;
+  blocks.for_runs([&](const Block& block, std::uint64_t place, Particle, std::uint64_t count) {
+    if (only == nullptr) {
+      only = &block;
+      begin = place;
+    } else if (&block != only || place != end) {
+      is_whole = false;
+    }
+    end = place + count;
+  });
+  if (only == nullptr || !is_whole) return nullptr;
+  const Numbers& numbers = (velocity ? only->velocity : only->displacement)[component];
+  return static_cast<const std::byte*>(numbers.get()) +
+         begin * bytes_of(blocks.model().springs.choice.precision);
+}
+
 void Simulation::height_rates(std::vector<double>& values) const {
   values.clear();
   if (state_->blocks.model().degrees_of_freedom == 4) copy({true, 3, 1}, values);

@@ -110,6 +110,11 @@ class Simulation {
   void displacements(std::vector<double>& xyz, Particle first, std::uint64_t count) const;
   void velocities(std::vector<double>& xyz) const;  ///< v(n-1/2), m/s
   void heights(std::vector<double>& values) const;
+  /// Returns the numbers of one component of displacement or velocity of all particles in their
+  /// order (0 to 2: x, y, z in m or m/s; 3: height, only with a free membrane), in the precision of
+  /// the run, where they are one array in memory: in one block whose rows follow without gaps. Null
+  /// otherwise. Later steps change the numbers.
+  const void* whole_array(bool velocity, int component) const;
   /// Copies the bits of the springs that start at each particle's site: see KernelRequest::alive.
   void alive(std::vector<std::uint16_t>& bits) const;
   void height_rates(std::vector<double>& values) const;

@@ -1,0 +1,150 @@
+#include "arrays.hpp"
+
+#include <base/errors.hpp>
+#include <plan/fields.hpp>
+
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/fmt/ranges.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace hyperlattice::python {
+
+namespace py = pybind11;
+
+namespace {
+
+void with_state(Job& job, const std::function<void(Simulation&)>& work) {
+  const py::gil_scoped_release released;
+  job.with_state(work);
+}
+
+/// Makes an array that owns the numbers, without a copy.
+py::array array_of(std::vector<double> numbers, std::size_t components) {
+  auto* const own = new std::vector<double>(std::move(numbers));
+  const py::capsule owner(own,
+                          [](void* memory) { delete static_cast<std::vector<double>*>(memory); });
+  const auto rows = static_cast<py::ssize_t>(own->size() / components);
+  if (components == 1) return py::array_t<double>({rows}, own->data(), owner);
+  return py::array_t<double>({rows, static_cast<py::ssize_t>(components)}, own->data(), owner);
+}
+
+/// A field of a run, or one component of it.
+struct FieldChoice {
+  std::string field;
+  std::optional<std::size_t> component;
+};
+
+FieldChoice choose(const Model& model, const std::string& name) {
+  if (has_field(model, name)) return {name, {}};
+  const FieldPart part = find_field_part(name);
+  if (part.field != nullptr && has_field(model, part.field->name)) {
+    const auto parts = parts_of(part.field->kind);
+    return {
+        std::string(part.field->name),
+        static_cast<std::size_t>(std::find(parts.begin(), parts.end(), part.part) - parts.begin())};
+  }
+  const auto known = fields_of(model);
+  const std::string near = nearest(name, {known.begin(), known.end()});
+  throw std::invalid_argument(fmt::format("no field '{}' in this run{}; it has {}", name,
+                                          near.empty() ? "" : ": did you mean '" + near + "'?",
+                                          fmt::join(known, ", ")));
+}
+
+/// A component of the motion by its name.
+struct MotionPart {
+  bool velocity = false;
+  int component = 0;
+};
+
+std::optional<MotionPart> motion_part(const std::string& name) {
+  if (name == "height") return MotionPart{false, 3};
+  const FieldPart part = find_field_part(name);
+  if (part.field == nullptr || part.part.empty()) return {};
+  const bool velocity = part.field->name == "velocity";
+  if (!velocity && part.field->name != "displacement") return {};
+  return MotionPart{velocity, part.part[0] - 'x'};
+}
+
+}  // namespace
+
+py::array field_copy(Job& job, const std::string& name) {
+  FieldValues values;
+  with_state(job, [&](Simulation&) {
+    const FieldChoice choice = choose(job.model(), name);
+    job.source().take();
+    job.source().hand_over(choice.field, values);
+    if (!choice.component) return;
+    const std::size_t rows = values.numbers.size() / values.components;
+    for (std::size_t n = 0; n < rows; ++n)
+      values.numbers[n] = values.numbers[n * values.components + *choice.component];
+    values.numbers.resize(rows);
+    values.components = 1;
+  });
+  return array_of(std::move(values.numbers), values.components);
+}
+
+std::optional<py::array> field_view(const std::shared_ptr<Job>& job, const std::string& name) {
+  const std::optional<MotionPart> part = motion_part(name);
+  if (!part) return {};
+  const void* numbers = nullptr;
+  bool floats = false;
+  py::ssize_t particles = 0;
+  with_state(*job, [&](Simulation& simulation) {
+    numbers = simulation.whole_array(part->velocity, part->component);
+    floats = job->model().springs.choice.precision == Precision::floats;
+    particles = static_cast<py::ssize_t>(job->model().body.particles);
+  });
+  if (numbers == nullptr) return {};
+  const py::capsule owner(new std::shared_ptr<Job>(job),
+                          [](void* memory) { delete static_cast<std::shared_ptr<Job>*>(memory); });
+  py::array view =
+      floats
+          ? py::array(py::array_t<float>({particles}, static_cast<const float*>(numbers), owner))
+          : py::array(py::array_t<double>({particles}, static_cast<const double*>(numbers), owner));
+  view.attr("setflags")(py::arg("write") = false);
+  return view;
+}
+
+std::vector<std::string> names_of_fields(Job& job) {
+  std::vector<std::string> names;
+  with_state(job, [&](Simulation&) {
+    const auto known = fields_of(job.model());
+    names.assign(known.begin(), known.end());
+  });
+  return names;
+}
+
+py::array positions(Job& job) {
+  std::vector<double> numbers;
+  with_state(job, [&](Simulation&) {
+    const auto known = job.source().take().positions;
+    numbers.assign(known.begin(), known.end());
+  });
+  return array_of(std::move(numbers), 3);
+}
+
+void set_motion(Job& job, bool velocity,
+                const py::array_t<double, py::array::c_style | py::array::forcecast>& rows) {
+  const std::vector<double> xyz(rows.data(), rows.data() + rows.size());
+  const bool has_rows = rows.ndim() == 2 && rows.shape(1) == 3;
+  with_state(job, [&](Simulation& simulation) {
+    const std::uint64_t particles = job.model().body.particles;
+    if (!has_rows || xyz.size() != 3 * particles)
+      throw std::invalid_argument(
+          fmt::format("an array of {} x 3 numbers was expected", particles));
+    if (!std::all_of(xyz.begin(), xyz.end(), [](double number) { return std::isfinite(number); }))
+      throw std::invalid_argument("the array has a number that is not finite");
+    if (!job.can_change())
+      throw std::logic_error(
+          "the state can be set before the first step and between explicit steps only");
+    if (velocity)
+      simulation.set_velocities(xyz, {});
+    else
+      simulation.set_displacements(xyz, {});
+    job.source().renew();
+  });
+}
+
+}  // namespace hyperlattice::python
