@@ -26,7 +26,7 @@ py::array array_of(std::vector<double> numbers, std::size_t components) {
   const py::capsule owner(own,
                           [](void* memory) { delete static_cast<std::vector<double>*>(memory); });
   const auto rows = static_cast<py::ssize_t>(own->size() / components);
-  if (components == 1) return py::array_t<double>({rows}, own->data(), owner);
+  if (components == 1) return py::array_t<double>(rows, own->data(), owner);
   return py::array_t<double>({rows, static_cast<py::ssize_t>(components)}, own->data(), owner);
 }
 
@@ -101,8 +101,8 @@ std::optional<py::array> field_view(const std::shared_ptr<Job>& job, const std::
                           [](void* memory) { delete static_cast<std::shared_ptr<Job>*>(memory); });
   py::array view =
       floats
-          ? py::array(py::array_t<float>({particles}, static_cast<const float*>(numbers), owner))
-          : py::array(py::array_t<double>({particles}, static_cast<const double*>(numbers), owner));
+          ? py::array(py::array_t<float>(particles, static_cast<const float*>(numbers), owner))
+          : py::array(py::array_t<double>(particles, static_cast<const double*>(numbers), owner));
   view.attr("setflags")(py::arg("write") = false);
   return view;
 }
