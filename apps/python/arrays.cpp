@@ -52,19 +52,36 @@ FieldChoice choose(const Model& model, const std::string& name) {
                                           fmt::join(known, ", ")));
 }
 
-/// A component of the motion by its name.
+/// A part of the motion by its name: some components of displacement or velocity.
 struct MotionPart {
   bool velocity = false;
-  int component = 0;
+  py::ssize_t first = 0, count = 3;
 };
 
 std::optional<MotionPart> motion_part(const std::string& name) {
-  if (name == "height") return MotionPart{false, 3};
+  if (name == "height") return MotionPart{false, 3, 1};
   const FieldPart part = find_field_part(name);
-  if (part.field == nullptr || part.part.empty()) return {};
+  if (part.field == nullptr) return {};
   const bool velocity = part.field->name == "velocity";
   if (!velocity && part.field->name != "displacement") return {};
-  return MotionPart{velocity, part.part[0] - 'x'};
+  if (part.part.empty()) return MotionPart{velocity};
+  return MotionPart{velocity, part.part[0] - 'x', 1};
+}
+
+template <class Number>
+py::array view_of(const Simulation::WholeMotion& motion, const MotionPart& part,
+                  py::ssize_t particles, const py::capsule& owner) {
+  constexpr py::ssize_t size = sizeof(Number);
+  const auto stride = static_cast<py::ssize_t>(motion.component_stride);
+  const Number* const first = static_cast<const Number*>(motion.first) + part.first * stride;
+  std::vector<py::ssize_t> shape{particles}, strides{size};
+  if (part.count > 1) {
+    shape.push_back(part.count);
+    strides.push_back(stride * size);
+  }
+  py::array_t<Number> view(shape, strides, first, owner);
+  view.attr("setflags")(py::arg("write") = false);
+  return view;
 }
 
 }  // namespace
@@ -88,23 +105,21 @@ py::array field_copy(Job& job, const std::string& name) {
 std::optional<py::array> field_view(const std::shared_ptr<Job>& job, const std::string& name) {
   const std::optional<MotionPart> part = motion_part(name);
   if (!part) return {};
-  const void* numbers = nullptr;
+  Simulation::WholeMotion motion;
   bool floats = false;
   py::ssize_t particles = 0;
   with_state(*job, [&](Simulation& simulation) {
-    numbers = simulation.whole_array(part->velocity, part->component);
-    floats = job->model().springs.choice.precision == Precision::floats;
-    particles = static_cast<py::ssize_t>(job->model().body.particles);
+    const Model& model = job->model();
+    if (part->first + part->count > model.degrees_of_freedom) return;
+    motion = simulation.whole_motion(part->velocity);
+    floats = model.springs.choice.precision == Precision::floats;
+    particles = static_cast<py::ssize_t>(model.body.particles);
   });
-  if (numbers == nullptr) return {};
+  if (motion.first == nullptr) return {};
   const py::capsule owner(new std::shared_ptr<Job>(job),
                           [](void* memory) { delete static_cast<std::shared_ptr<Job>*>(memory); });
-  py::array view =
-      floats
-          ? py::array(py::array_t<float>(particles, static_cast<const float*>(numbers), owner))
-          : py::array(py::array_t<double>(particles, static_cast<const double*>(numbers), owner));
-  view.attr("setflags")(py::arg("write") = false);
-  return view;
+  return floats ? view_of<float>(motion, *part, particles, owner)
+                : view_of<double>(motion, *part, particles, owner);
 }
 
 std::vector<std::string> names_of_fields(Job& job) {

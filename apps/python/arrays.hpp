@@ -16,9 +16,9 @@ namespace hyperlattice::python {
 /// std::invalid_argument if the run has no such field.
 pybind11::array field_copy(Job& job, const std::string& name);
 
-/// Returns a view of a component of the motion ("displacement_x", "velocity_z", "height") that
-/// cannot be written, in the precision of the run; none if this is not one array in memory. The
-/// view keeps the job alive.
+/// Returns a view of the motion or of a component ("displacement", "velocity_z", "height") that
+/// cannot be written, in the precision of the run; none if the motion is not one array in memory.
+/// The view keeps the job alive.
 std::optional<pybind11::array> field_view(const std::shared_ptr<Job>& job, const std::string& name);
 
 /// Returns the names of the fields that the run has.

@@ -4,7 +4,8 @@
 #include "scene_source.hpp"
 
 #include <analyze/analysis.hpp>
-#include <analyze/calibrate.hpp>
+#include <analyze/calibration_task.hpp>
+#include <analyze/crystal_report.hpp>
 #include <analyze/load_lattice.hpp>
 #include <hyperlattice/components.hpp>
 #include <plan/calibration.hpp>
@@ -76,51 +77,48 @@ MembraneChoice membrane_of(const py::dict& choice) {
   return membrane;
 }
 
-Work analyze(const py::dict& membrane, std::string lattice, Texts options) {
-  return make_waiting<Background>(
-      [choice = membrane_of(membrane), lattice = std::move(lattice), options = std::move(options)] {
-        check_environment();
-        Host host;
-        const LatticeGeometry geometry = load_lattice(host, lattice, options);
-        const ChosenMembrane chosen = resolve(choice, geometry);
-        Json json = {{"lattice", lattice}};
-        json.update(chosen_json(chosen));
-        json.update(analysis_json(analyse(lattice_of(chosen, geometry))));
-        return json_text(json);
-      });
+/// The analysis of a lattice, of cubic crystals (`crystals`: their file), or of both.
+Work analyze(const py::dict& membrane, std::string lattice, Texts options, std::string crystals) {
+  return make_waiting<Background>([choice = membrane_of(membrane), lattice = std::move(lattice),
+                                   options = std::move(options), crystals = std::move(crystals)] {
+    check_environment();
+    Json json = {{"lattice", lattice}};
+    const auto fitted =
+        crystals.empty() ? std::vector<FittedCrystal>{} : fit_all(read_crystals(crystals));
+    if (!choice.membrane.empty()) {
+      Host host;
+      const LatticeGeometry geometry = load_lattice(host, lattice, options);
+      const ChosenMembrane chosen = resolve(choice, geometry);
+      json.update(chosen_json(chosen));
+      json.update(analysis_json(analyse(lattice_of(chosen, geometry))));
+    }
+    if (!fitted.empty()) json.update(crystals_json(fitted));
+    return json_text(json);
+  });
 }
 
 Work calibrate_springs(const py::dict& membrane, std::string lattice, Texts options,
                        std::optional<double> young, std::optional<double> spacing,
                        std::string parameters, std::optional<int> measure,
-                       std::optional<double> strain, int threads) {
-  CalibrationChoice choice{membrane_of(membrane), young, spacing, std::move(parameters)};
-  return make_waiting<Background>([=, lattice = std::move(lattice), options = std::move(options)] {
-    check_environment();
-    Host host;
-    const LatticeGeometry geometry = load_lattice(host, lattice, options);
-    if (geometry.listed && measure)
-      throw InputError({{"measure", std::to_string(*measure),
-                         "none: a listed lattice is calibrated on its periodic sample, and has no "
-                         "other test yet"}});
-    const Calibration found = calibrate(choice, geometry);
-    Json json = {{"lattice", lattice}, {"parameters", choice.parameters}};
-    json.update(calibration_json(found));
-    if (measure) {
-      VirtualTest::Options test;
-      test.lattice = lattice;
-      test.particles = *measure;
-      test.strain = strain.value_or(test.strain);
-      test.threads = chosen_threads(threads);
-      const VirtualTestResult measured =
-          VirtualTest(host, bundled::virtual_test, test)
-              .measure(found.chosen.ratios, found.chosen.volumetric != 0
-                                                ? std::optional(found.infinite.poisson)
-                                                : std::nullopt);
-      json["measured"] = measured_json(measured, test);
-    }
-    return json_text(json);
-  });
+                       std::optional<double> strain,
+                       std::optional<std::tuple<double, double, int>> curve, std::string each,
+                       int threads) {
+  return make_waiting<Background>(
+      [task = CalibrationTask{std::move(lattice),
+                              std::move(options),
+                              {membrane_of(membrane), young, spacing, std::move(parameters)},
+                              measure,
+                              strain,
+                              curve,
+                              std::move(each),
+                              threads}] {
+        check_environment();
+        Faults faults;
+        check(task, faults);
+        faults.throw_if_any();
+        Host host;
+        return json_text(perform(task, host, bundled::virtual_test).json);
+      });
 }
 
 }  // namespace
@@ -136,10 +134,11 @@ void bind_tools(py::module_& core) {
   core.def("study", study, py::kw_only(), py::arg("file"), py::arg("settings"), py::arg("out"),
            py::arg("target_error"), py::arg("peers"), py::arg("fresh"), py::arg("threads"));
   core.def("analyze", analyze, py::kw_only(), py::arg("membrane"), py::arg("lattice"),
-           py::arg("options"));
+           py::arg("options"), py::arg("crystals"));
   core.def("calibrate", calibrate_springs, py::kw_only(), py::arg("membrane"), py::arg("lattice"),
            py::arg("options"), py::arg("young"), py::arg("spacing"), py::arg("parameters"),
-           py::arg("measure"), py::arg("strain"), py::arg("threads"));
+           py::arg("measure"), py::arg("strain"), py::arg("curve"), py::arg("each"),
+           py::arg("threads"));
 }
 
 }  // namespace hyperlattice::python

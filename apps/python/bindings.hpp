@@ -2,19 +2,23 @@
 #pragma once
 
 #include <pybind11/pybind11.h>
+#include <unistd.h>
 
 #include <memory>
 #include <utility>
 
 namespace hyperlattice::python {
 
-/// Makes an object whose destructor runs without Python's lock, because it waits for a thread.
+/// Makes an object whose destructor runs without Python's lock, because it waits for a thread. In a
+/// process that fork() made, the thread does not exist: there the object is left as it is.
 template <class T, class... Arguments>
 std::shared_ptr<T> make_waiting(Arguments&&... arguments) {
-  return std::shared_ptr<T>(new T(std::forward<Arguments>(arguments)...), [](T* object) {
-    const pybind11::gil_scoped_release released;
-    delete object;
-  });
+  return std::shared_ptr<T>(new T(std::forward<Arguments>(arguments)...),
+                            [owner = getpid()](T* object) {
+                              if (getpid() != owner) return;
+                              const pybind11::gil_scoped_release released;
+                              delete object;
+                            });
 }
 
 void bind_job(pybind11::module_& core);    ///< class Job

@@ -62,10 +62,10 @@ void BlockSet::allocate(Block& block, std::size_t number) const {
   block.layout = &layout_->blocks[number];
   block.number = number;
   block.rows = block.layout->rows;
-  for (int c = 0; c < model_.degrees_of_freedom; ++c) {
-    block.displacement[c] = Numbers(model_.springs.choice.precision, block.layout->sites);
-    block.velocity[c] = Numbers(model_.springs.choice.precision, block.layout->sites);
-  }
+  const auto components = static_cast<std::size_t>(model_.degrees_of_freedom);
+  for (Numbers* const motion : {block.displacement, block.velocity})
+    block.component_stride = Numbers::allocate_together(
+        model_.springs.choice.precision, block.layout->sites, std::span(motion, components));
   block.scratch = AlignedArray<double>(layout_->scratch_numbers());
   block.damped_work.assign(block.rows.size(), 0);
   if (model_.springs.softens || !model_.cohesive.empty())

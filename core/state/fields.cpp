@@ -60,9 +60,8 @@ void Simulation::heights(std::vector<double>& values) const {
   if (state_->blocks.model().degrees_of_freedom == 4) copy({false, 3, 1}, values);
 }
 
-const void* Simulation::whole_array(bool velocity, int component) const {
+Simulation::WholeMotion Simulation::whole_motion(bool velocity) const {
   const BlockSet& blocks = state_->blocks;
-  if (component >= blocks.model().degrees_of_freedom) return nullptr;
   const Block* only = nullptr;
   std::uint64_t begin = 0, end = 0;
   bool is_whole = true;
@@ -75,10 +74,11 @@ const void* Simulation::whole_array(bool velocity, int component) const {
     }
     end = place + count;
   });
-  if (only == nullptr || !is_whole) return nullptr;
-  const Numbers& numbers = (velocity ? only->velocity : only->displacement)[component];
-  return static_cast<const std::byte*>(numbers.get()) +
-         begin * bytes_of(blocks.model().springs.choice.precision);
+  if (only == nullptr || !is_whole) return {};
+  const Numbers& x = (velocity ? only->velocity : only->displacement)[0];
+  return {static_cast<const std::byte*>(x.get()) +
+              begin * bytes_of(blocks.model().springs.choice.precision),
+          only->component_stride};
 }
 
 void Simulation::height_rates(std::vector<double>& values) const {

@@ -67,6 +67,7 @@ class Faults(FolderTest):
             simulation.run()
         self.assertTrue(simulation.done)
         self.assertEqual(simulation.state_hash, result.state_hash)
+        self.assertEqual(simulation.result.status, "failed")
 
     def test_a_place_that_cannot_be_written(self):
         with self.assertRaises(hyperlattice.OutsideError) as caught:
@@ -109,6 +110,10 @@ class Tools(FolderTest):
         self.assertEqual(hyperlattice.analyze("I-m", poisson=0.1), self.json_of("analyze", "--membrane", "I-m", "--poisson", 0.1))
         self.assertEqual(hyperlattice.analyze("free", k_alpha="infinite", k_beta=0.1, k_gamma=0.2),
                          self.json_of("analyze", "--membrane", "free", "--k_alpha", "infinite", "--k_beta", 0.1, "--k_gamma", 0.2))
+        (self.folder / "crystals.csv").write_text("name,C11_GPa,C12_GPa,C44_GPa\nAl,107.3,60.9,28.3\n")
+        self.assertEqual(hyperlattice.analyze(crystals="crystals.csv"), self.json_of("analyze", "--crystals", "crystals.csv"))
+        with self.assertRaises(TypeError):
+            hyperlattice.analyze()
         with self.assertRaises(hyperlattice.SceneError) as caught:
             hyperlattice.analyze("I-q", poisson=0.1)
         self.assertIn("I-m", caught.exception.faults[0].expected)
@@ -120,8 +125,16 @@ class Tools(FolderTest):
         expected = self.json_of("calibrate", "--membrane", "I", "--lambda", 1, "--measure", 5)["measured"]
         for key in ("poisson", "modulus_ratio"):
             self.assertEqual(measured[key], expected[key])
-        with self.assertRaises(ValueError):
-            hyperlattice.calibrate("I", lambda_=1, strain=0.01)
+        with self.assertRaises(hyperlattice.SceneError) as caught:
+            hyperlattice.calibrate("I", lambda_=1, strain=0.2)
+        self.assertEqual([fault.pointer for fault in caught.exception.faults], ["--strain", "--strain"])
+
+    def test_curves(self):
+        self.assertEqual(hyperlattice.calibrate("I", curve=(0, 4, 5)),
+                         self.json_of("calibrate", "--membrane", "I", "--curve", 0, 4, 5))
+        self.assertEqual(hyperlattice.calibrate("I", lattice="lattices.random", curve=(0, 2, 4), each=("coordination", [8.4, 13.2])),
+                         self.json_of("calibrate", "--membrane", "I", "--lattice", "lattices.random", "--curve", 0, 2, 4,
+                                      "--each", "coordination=8.4,13.2"))
 
     def test_study(self):
         """A particle on a spring swings with the frequency of docs/guide/studies.md."""

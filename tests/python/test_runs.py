@@ -1,10 +1,12 @@
 """plan and run give what the program gives: the same bits, the same tables, the same frames."""
+import io
 import json
 import logging
 import pathlib
 import threading
 import time
 import unittest
+import unittest.mock
 
 import numpy as np
 import hyperlattice
@@ -120,6 +122,16 @@ class Runs(FolderTest):
         with self.assertLogs("hyperlattice", logging.INFO) as log:
             hyperlattice.run(bar(), out="out")
         self.assertTrue(any("results in out" in line for line in log.output), log.output)
+
+    def test_progress(self):
+        from hyperlattice import _waiting
+        with unittest.mock.patch.multiple(_waiting.Progress, PATIENCE=0, PAUSE=0), \
+                unittest.mock.patch("sys.stderr", new_callable=io.StringIO) as shown:
+            hyperlattice.run(bar(high=("30 mm", "20 mm", "20 mm"), end="100 us"), progress=True, threads=1)
+        self.assertRegex(shown.getvalue(), r"step \d+/\d+ \(\d+\.\d%\)  t \S+ s  dt \S+ s  ETA ")
+        with unittest.mock.patch("sys.stderr", new_callable=io.StringIO) as shown:
+            hyperlattice.run(bar())
+        self.assertEqual(shown.getvalue(), "")
 
     def test_html(self):
         scene = bar(stages=[PROBE])

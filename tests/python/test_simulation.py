@@ -2,6 +2,7 @@
 import gc
 import json
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -91,10 +92,11 @@ class Views(FolderTest):
         particles = simulation.plan["particles"]
         rng = np.random.default_rng(1)
         simulation.set_velocity(rng.normal(size=(particles, 3)))
-        for name in ("displacement_x", "displacement_y", "displacement_z", "velocity_x", "velocity_z"):
+        for name in ("displacement", "velocity", "displacement_x", "displacement_y", "displacement_z", "velocity_x", "velocity_z"):
             self.assertTrue(simulation.is_view(name), name)
             view = simulation.field(name)
             address = view.__array_interface__["data"][0]
+            self.assertEqual(view.shape, (particles,) if "_" in name else (particles, 3))
             self.assertFalse(view.flags.owndata)
             self.assertFalse(view.flags.writeable)
             self.assertTrue(np.shares_memory(view, simulation.field(name)))
@@ -102,10 +104,23 @@ class Views(FolderTest):
             simulation.step(2)
             self.assertFalse(np.array_equal(view, before))
             self.assertEqual(simulation.field(name).__array_interface__["data"][0], address)
-            field, part = name.split("_")
-            np.testing.assert_array_equal(view, simulation.field(field)[:, "xyz".index(part)])
-        self.assertFalse(simulation.is_view("displacement"))
-        self.assertFalse(np.shares_memory(simulation.field("displacement"), simulation.field("displacement")))
+            whole = simulation._job.field_copy(name.split("_")[0])
+            np.testing.assert_array_equal(view, whole[:, "xyz".index(name[-1])] if "_" in name else whole)
+        self.assertTrue(np.shares_memory(simulation.field("velocity"), simulation.field("velocity_y")))
+        self.assertFalse(np.shares_memory(simulation.field("velocity"), simulation.field("displacement")))
+        self.assertFalse(simulation.is_view("stress"))
+
+    def test_of_a_list(self):
+        points = [(x, y, z) for z in range(5) for y in range(3) for x in range(3)]
+        (self.folder / "points.csv").write_text("x,y,z\n" + "".join(f"{x},{y},{z}\n" for x, y, z in points))
+        simulation = hyperlattice.Simulation({"format": "hyperlattice/1", "allow_unstable": True, "pipeline": [
+            {"type": "lattices.points", "points": "points.csv", "coordination": 5, "scale": "1 mm"},
+            {"type": "materials.elastic", "young": "1 GPa", "lambda": 0.1, "density": 1000, "membrane": "I"},
+            {"type": "solvers.explicit", "end_time": "20 us"}]})
+        velocity = np.random.default_rng(2).normal(size=(45, 3))
+        simulation.set_velocity(velocity)
+        self.assertTrue(simulation.is_view("velocity"))
+        np.testing.assert_array_equal(simulation.field("velocity"), velocity)
 
     def test_the_height_is_a_view(self):
         simulation = hyperlattice.Simulation(free_block(), threads=1)
@@ -123,6 +138,7 @@ class Views(FolderTest):
         for scene, threads in ((bar(), 1), (free_block(), 2)):
             simulation = hyperlattice.Simulation(scene, threads=threads)
             simulation.step(2)
+            self.assertFalse(simulation.is_view("displacement"))
             self.assertFalse(simulation.is_view("displacement_x"))
             field = simulation.field("displacement_x")
             self.assertTrue(field.flags.owndata or field.flags.writeable)
@@ -171,6 +187,18 @@ class Changes(FolderTest):
         self.assertAlmostEqual(simulation.energy["stored"] / ((lame / 2 + shear) * strain**2 * volume), 1, delta=1e-5)
         simulation.run()
         self.assertEqual(simulation.result.status, "done")
+
+    def test_a_force_from_python(self):
+        """A body under a constant acceleration g, given step by step: u = g dt^2 n (n + 1) / 2, central differences exactly."""
+        simulation = hyperlattice.Simulation(free_block())
+        step = simulation.plan["time_step"]
+        gravity = np.array([0, 0, -1000.0])
+        for _ in range(25):
+            simulation.set_velocity(simulation.field("velocity") + step * gravity)
+            simulation.step()
+        moved = simulation.field("displacement")
+        np.testing.assert_allclose(moved, np.broadcast_to(gravity * step**2 * 25 * 26 / 2, moved.shape), rtol=1e-9)
+        self.assertEqual(simulation.run().status, "done")
 
     def test_wrong_arrays(self):
         simulation = hyperlattice.Simulation(free_block())
@@ -232,6 +260,8 @@ class Ends(FolderTest):
         del simulation
         gc.collect()
         self.assertFalse(folder.exists())
+
+    def test_closing_leaves_a_checkpoint_in_a_folder_of_the_user(self):
         with hyperlattice.Simulation(bar(), out="out") as simulation:
             simulation.step(5)
         self.assertEqual(hyperlattice.run(bar(), out="out", resume=True).state_hash, hyperlattice.run(bar()).state_hash)
@@ -248,6 +278,31 @@ class Ends(FolderTest):
                               cwd=os.path.dirname(__file__))
         self.assertEqual(done.stderr, "")
         self.assertFalse(os.path.exists(done.stdout.strip()))
+
+
+class Processes(FolderTest):
+    def test_fork(self):
+        """A copy of the process leaves simulations and folders of the original alone, and may run scenes itself."""
+        simulation = hyperlattice.Simulation(bar())
+        simulation.step(3)
+        expected = hyperlattice.run(bar()).state_hash
+        child = os.fork()
+        if child == 0:
+            try:
+                del simulation
+                gc.collect()
+                code = 0 if hyperlattice.run(bar()).state_hash == expected else 1
+            except BaseException:
+                code = 2
+            os._exit(code)
+        self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), 0)
+        self.assertEqual(simulation.run().state_hash, expected)
+
+    def test_errors_pass_between_processes(self):
+        with self.assertRaises(hyperlattice.SceneError) as caught:
+            hyperlattice.plan({"format": "hyperlattice/1"})
+        copy = pickle.loads(pickle.dumps(caught.exception))
+        self.assertEqual((str(copy), copy.faults), (str(caught.exception), caught.exception.faults))
 
 
 class Interrupts(FolderTest):

@@ -31,6 +31,9 @@ class SceneError(Error, ValueError):
         super().__init__(message)
         self.faults = [Fault(*fault) for fault in faults]
 
+    def __reduce__(self):
+        return type(self), (str(self), self.faults)
+
 
 class RunError(Error, RuntimeError):
     """The run failed (exit code 3): it is unstable, has lost its energy balance, or finds no state of rest."""

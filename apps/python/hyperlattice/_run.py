@@ -18,13 +18,19 @@ from ._waiting import Progress, pass_on_log, wait_for, wait_to_the_end
 EXIT_DONE, EXIT_RUN, EXIT_OUTSIDE, EXIT_INTERRUPTED = 0, 3, 4, 130
 
 
+def _remove(folder: pathlib.Path, owner: int) -> None:
+    """Removes a temporary folder, unless this is a process that fork() made of its owner."""
+    if os.getpid() == owner:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
 class Folder:
     """The folder of a run: the user's, or a temporary one that lives as long as this object."""
 
     def __init__(self, out: str | os.PathLike[str] | None):
         self.path = pathlib.Path(tempfile.mkdtemp(prefix="hyperlattice_") if out is None else out)
         if out is None:
-            weakref.finalize(self, shutil.rmtree, self.path, ignore_errors=True)
+            weakref.finalize(self, _remove, self.path, os.getpid())
 
     def result(self) -> Result | None:
         """The results, or None if the run left no summary."""

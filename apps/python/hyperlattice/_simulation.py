@@ -12,6 +12,7 @@ from typing import Any, Callable
 import numpy as np
 
 from . import _core
+from ._errors import OutsideError, RunError
 from ._plan import Plan
 from ._result import Result
 from ._run import Folder, conclude
@@ -50,6 +51,7 @@ class Simulation:
             self._conclude()
         pass_on_log(self._job)
         _living.add(self)
+        self._process = os.getpid()
 
     # the course of the run
 
@@ -103,7 +105,11 @@ class Simulation:
         pass_on_log(self._job)
 
     def _conclude(self) -> None:
-        self._result = conclude(self._job, self._folder)
+        try:
+            self._result = conclude(self._job, self._folder)
+        except (RunError, OutsideError) as error:
+            self._result = error.result
+            raise
 
     def every(self, n: int, call: Callable[[Simulation], Any]) -> Callable[[], None]:
         """Calls `call(simulation)` after each n-th step of the run. Returns a function that ends this."""
@@ -123,7 +129,7 @@ class Simulation:
 
     def close(self) -> None:
         """Ends the run. With a folder of the user's it leaves a checkpoint, else nothing. The state can be read yet."""
-        if self._job.has_ended():
+        if self._job.has_ended() or self._process != os.getpid():
             return
         if self._is_temporary:
             self._job.give_up()
@@ -202,8 +208,8 @@ class Simulation:
         """Returns a field of the present state: all that `writers.vtu` can write, or one component, as "stress_xx".
 
         The array has a number for each particle, or a row of its components. It is a view of the state without a copy,
-        which cannot be written and which changes with each step, for "height" and for the components "displacement_x"
-        .. "velocity_z" where these are one array in memory (see is_view). Otherwise it is a copy in float64.
+        which cannot be written and which changes with each step, for "displacement", "velocity", their components, and
+        "height", where the motion is one array in memory (see is_view). Otherwise it is a copy in float64.
         Raises ValueError if the run has no such field.
         """
         view = self._job.field_view(name) if self._may_be_view(name) else None
@@ -211,7 +217,7 @@ class Simulation:
 
     @staticmethod
     def _may_be_view(name: str) -> bool:
-        return name == "height" or name[:-2] in ("displacement", "velocity")
+        return name in ("displacement", "velocity", "height") or name[:-2] in ("displacement", "velocity")
 
     def is_view(self, name: str) -> bool:
         """Whether field(name) is a view: the body is in one block (one thread) whose rows have no gaps between them.

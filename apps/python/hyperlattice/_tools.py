@@ -57,35 +57,38 @@ def _options(options: Mapping[str, Any] | None) -> list[str]:
     return [f"{name}={value if isinstance(value, str) else as_json(value)}" for name, value in (options or {}).items()]
 
 
-def analyze(membrane: str, *, lattice: str = "lattices.cubic", options: Mapping[str, Any] | None = None,
+def analyze(membrane: str = "", *, lattice: str = "lattices.cubic", options: Mapping[str, Any] | None = None,
             poisson: float | None = None, lambda_: float | None = None, k_alpha: float | str | None = None,
-            k_beta: float | None = None, k_gamma: float | None = None) -> dict[str, Any]:
+            k_beta: float | None = None, k_gamma: float | None = None,
+            crystals: str | os.PathLike[str] | None = None) -> dict[str, Any]:
     """Analyses an infinite lattice: elasticity, stability over the Brillouin zone, critical time step.
 
     membrane: "none", "I", "II", "III", "IV", "I-m" or "free" with k_alpha (a number or "infinite"), k_beta, k_gamma.
     options: options of the lattice component, {"coordination": 13.2}.
+    crystals: a CSV file of cubic crystals; finds the lattices with their elastic constants.
     Returns the JSON of `hyperlattice analyze --json`. Raises SceneError with all faults.
     """
+    if not membrane and crystals is None:
+        raise TypeError("analyze needs a membrane or a file of crystals")
     return _done(_core.analyze(membrane=_membrane(membrane, poisson, lambda_, k_alpha, k_beta, k_gamma), lattice=lattice,
-                               options=_options(options)))
+                               options=_options(options), crystals="" if crystals is None else os.fspath(crystals)))
 
 
 def calibrate(membrane: str, *, lattice: str = "lattices.cubic", options: Mapping[str, Any] | None = None,
               young: float | None = None, poisson: float | None = None, lambda_: float | None = None,
               k_alpha: float | str | None = None, k_beta: float | None = None, k_gamma: float | None = None,
               spacing: float | None = None, parameters: str = "closed_form", measure: int | None = None,
-              strain: float | None = None, threads: int | None = None) -> dict[str, Any]:
+              strain: float | None = None, curve: tuple[float, float, int] | None = None,
+              each: tuple[str, Iterable[Any]] | None = None, threads: int | None = None) -> dict[str, Any]:
     """Computes the springs that have Young's modulus (Pa) and Poisson's ratio, or these from the springs.
 
     parameters: "closed_form" or "paper". measure: also measures them on a cube of N^3 particles, with `strain`.
-    Returns the JSON of `hyperlattice calibrate --json`. Raises SceneError with all faults.
+    curve: (first, last, points) of many lambda in place of one. each: ("coordination", [8.4, 13.2]), a curve for each
+    value of an option of the lattice.
+    Returns the JSON of `hyperlattice calibrate --json`. Raises SceneError with all faults, which have the names of the
+    program's arguments.
     """
-    if measure is not None and not 3 <= measure <= 500:
-        raise ValueError(f"measure: {measure!r}: expected particles along an edge, 3 to 500")
-    if strain is not None and measure is None:
-        raise ValueError("strain: measure with it, since it is the strain of that test")
-    if strain is not None and not 1e-9 <= abs(strain) <= 0.1:
-        raise ValueError(f"strain: {strain!r}: expected 1e-9 to 0.1, positive in compression, negative in tension")
+    family = "" if each is None else f"{each[0]}={','.join(map(str, each[1]))}"
     return _done(_core.calibrate(membrane=_membrane(membrane, poisson, lambda_, k_alpha, k_beta, k_gamma), lattice=lattice,
                                  options=_options(options), young=young, spacing=spacing, parameters=parameters,
-                                 measure=measure, strain=strain, threads=thread_number(threads)))
+                                 measure=measure, strain=strain, curve=curve, each=family, threads=thread_number(threads)))
