@@ -1,6 +1,6 @@
-"""Executes the code cells of a notebook, or the Python blocks of a page, in one name space, as Jupyter does. Argument: the
-notebook (.ipynb) or the page (.md). A value at the end of a cell is shown as HTML by Jupyter; here its HTML is made and
-thrown away."""
+"""Executes the code cells of a notebook, or the Python blocks of a page, in one name space, as Jupyter does. Argument:
+the notebook (.ipynb) or the page (.md). A value at the end of a cell is shown as HTML by Jupyter; here its HTML is made
+and thrown away."""
 import ast
 import json
 import os

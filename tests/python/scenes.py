@@ -15,7 +15,8 @@ def bar(high=("8 mm", "4 mm", "4 mm"), end="20 us", stages=(), material=None, la
     return {"format": "hyperlattice/1", "title": "Bar", "pipeline": [
         {"type": "lattices.cubic", "spacing": "1 mm", "boundary": "cells",
          "shape": {"box": {"low": [0, 0, 0], "high": list(high)}}, **(lattice or {})},
-        {"type": "materials.elastic", "young": "10 GPa", "poisson": 0.2, "density": 2500, "membrane": "I-m", **(material or {})},
+        {"type": "materials.elastic", "young": "10 GPa", "poisson": 0.2, "density": 2500, "membrane": "I-m",
+         **(material or {})},
         {"type": "loads.velocity", "on": "x_max", "value": ["1 m/s", 0, 0], "rise": "1 us"},
         {"type": "solvers.explicit", "end_time": end}, *stages]}
 

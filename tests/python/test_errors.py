@@ -32,7 +32,8 @@ class Faults(FolderTest):
                 self.assertIn(str(error), printed.stderr)
                 self.assertEqual("\n".join(fault.message for fault in error.faults), str(error))
                 pointers = [fault.pointer for fault in error.faults]
-                self.assertTrue({"/pipeline/0/type", "/pipeline/1/young", "/pipeline/3/end_tme"} <= set(pointers), pointers)
+                expected = {"/pipeline/0/type", "/pipeline/1/young", "/pipeline/3/end_tme"}
+                self.assertTrue(expected <= set(pointers), pointers)
                 kind = error.faults[pointers.index("/pipeline/0/type")]
                 self.assertEqual(kind.value, '"lattices.cubik"')
                 self.assertIn("lattices.cubic", kind.expected)
@@ -107,11 +108,14 @@ class Tools(FolderTest):
         return json.loads(self.program(*words, "--json"))
 
     def test_analyze(self):
-        self.assertEqual(hyperlattice.analyze("I-m", poisson=0.1), self.json_of("analyze", "--membrane", "I-m", "--poisson", 0.1))
+        self.assertEqual(hyperlattice.analyze("I-m", poisson=0.1),
+                         self.json_of("analyze", "--membrane", "I-m", "--poisson", 0.1))
         self.assertEqual(hyperlattice.analyze("free", k_alpha="infinite", k_beta=0.1, k_gamma=0.2),
-                         self.json_of("analyze", "--membrane", "free", "--k_alpha", "infinite", "--k_beta", 0.1, "--k_gamma", 0.2))
+                         self.json_of("analyze", "--membrane", "free", "--k_alpha", "infinite", "--k_beta", 0.1,
+                                      "--k_gamma", 0.2))
         (self.folder / "crystals.csv").write_text("name,C11_GPa,C12_GPa,C44_GPa\nAl,107.3,60.9,28.3\n")
-        self.assertEqual(hyperlattice.analyze(crystals="crystals.csv"), self.json_of("analyze", "--crystals", "crystals.csv"))
+        self.assertEqual(hyperlattice.analyze(crystals="crystals.csv"),
+                         self.json_of("analyze", "--crystals", "crystals.csv"))
         with self.assertRaises(TypeError):
             hyperlattice.analyze()
         with self.assertRaises(hyperlattice.SceneError) as caught:
@@ -132,21 +136,24 @@ class Tools(FolderTest):
     def test_curves(self):
         self.assertEqual(hyperlattice.calibrate("I", curve=(0, 4, 5)),
                          self.json_of("calibrate", "--membrane", "I", "--curve", 0, 4, 5))
-        self.assertEqual(hyperlattice.calibrate("I", lattice="lattices.random", curve=(0, 2, 4), each=("coordination", [8.4, 13.2])),
-                         self.json_of("calibrate", "--membrane", "I", "--lattice", "lattices.random", "--curve", 0, 2, 4,
-                                      "--each", "coordination=8.4,13.2"))
+        family = hyperlattice.calibrate("I", lattice="lattices.random", curve=(0, 2, 4),
+                                        each=("coordination", [8.4, 13.2]))
+        self.assertEqual(family, self.json_of("calibrate", "--membrane", "I", "--lattice", "lattices.random",
+                                              "--curve", 0, 2, 4, "--each", "coordination=8.4,13.2"))
 
     def test_study(self):
         """A particle on a spring swings with the frequency of docs/guide/studies.md."""
         scene = {"format": "hyperlattice/1", "pipeline": [
-            {"type": "lattices.cubic", "spacing": "1 mm", "shape": {"box": {"low": [0, 0, 0], "high": ["1 mm", "1 mm", "2 mm"]}}},
+            {"type": "lattices.cubic", "spacing": "1 mm",
+             "shape": {"box": {"low": [0, 0, 0], "high": ["1 mm", "1 mm", "2 mm"]}}},
             {"type": "materials.elastic", "young": "10 GPa", "poisson": 0.25, "density": 2500},
             {"type": "loads.fixed", "on": "z_min"},
             {"type": "loads.start_velocity", "on": "z_max", "linear": [0, 0, "1 mm/s"]},
             {"type": "solvers.explicit", "end_time": "2 us"},
             {"type": "probes.point", "position": [0, 0, "2 mm"], "component": "z", "every": 0}]}
         self.write({"format": "hyperlattice-study/1", "scene": scene, "refine": "step", "repeats": 1,
-                    "vary": {"step": {"/pipeline/4/time_step": ["0.2 us", "0.1 us"]}}, "truth": {"value": 4.54038063e-10},
+                    "vary": {"step": {"/pipeline/4/time_step": ["0.2 us", "0.1 us"]}},
+                    "truth": {"value": 4.54038063e-10},
                     "compare": {"end": {"probe": "point", "column": "displacement_z"}}}, "study.json")
         found = hyperlattice.study("study.json", target_error=0.01)
         self.assertEqual(len(found["rows"]), 2)

@@ -3,13 +3,16 @@ import io
 import json
 import logging
 import pathlib
+import sys
 import threading
 import time
+import types
 import unittest
 import unittest.mock
 
 import numpy as np
 import hyperlattice
+from hyperlattice import _waiting
 from scenes import FolderTest, bar
 
 PROBE = {"type": "probes.point", "name": "middle", "position": ["4 mm", "2 mm", "2 mm"], "field": "displacement"}
@@ -71,7 +74,7 @@ class Runs(FolderTest):
         expected = json.loads(self.program("plan", file, "--json"))
         plan = hyperlattice.plan(file)
         self.assertEqual(set(plan), set(expected))
-        for key in ("particles", "springs", "steps", "time_step", "critical_time_step", "bytes_per_particle", "left_out"):
+        for key in ("particles", "springs", "steps", "time_step", "critical_time_step", "left_out"):
             self.assertEqual(plan[key], expected[key])
         self.assertIn("Loaded", str(plan))
         self.assertEqual(list(self.folder.iterdir()), [file])
@@ -84,7 +87,8 @@ class Runs(FolderTest):
         self.assertFalse(folder.exists())
 
     def test_tables(self):
-        result = hyperlattice.run(bar(stages=[PROBE], material={"failure": {"type": "failures.elongation", "limit": "1 um"}}))
+        failure = {"type": "failures.elongation", "limit": "1 um"}
+        result = hyperlattice.run(bar(stages=[PROBE], material={"failure": failure}))
         self.assertEqual(result.tables, ["failures", "history", "middle"])
         history, failures = result.table("history"), result.table("failures")
         self.assertEqual(len(np.asarray(failures["step"])), sum(result.summary["broken_springs"].values()))
@@ -92,6 +96,21 @@ class Runs(FolderTest):
         self.assertEqual(np.asarray(history["step"]).dtype, np.int64)
         with self.assertRaisesRegex(KeyError, "history, middle"):
             result.table("missing")
+
+    def test_tables_with_and_without_pandas(self):
+        """pandas may be installed here or not, so that a stand-in takes its place."""
+        result = hyperlattice.run(bar())
+        with unittest.mock.patch.dict(sys.modules, pandas=None):  # its import fails
+            columns = result.table("history")
+            self.assertIsInstance(columns, dict)
+        stand_in = types.ModuleType("pandas")
+        stand_in.DataFrame = lambda data: ("frame", data)
+        with unittest.mock.patch.dict(sys.modules, pandas=stand_in):
+            kind, data = result.table("history")
+        self.assertEqual(kind, "frame")
+        self.assertEqual(list(data), list(columns))
+        for name, column in columns.items():
+            np.testing.assert_array_equal(data[name], column)
 
     def test_a_second_run_in_a_folder_in_use_is_refused(self):
         with hyperlattice.Simulation(bar(), out="out") as first:
@@ -124,14 +143,48 @@ class Runs(FolderTest):
         self.assertTrue(any("results in out" in line for line in log.output), log.output)
 
     def test_progress(self):
-        from hyperlattice import _waiting
+        class Job:
+            now = (0, 0.0, 0.0, 0)
+
+            def reached(self):
+                return self.now
+
         with unittest.mock.patch.multiple(_waiting.Progress, PATIENCE=0, PAUSE=0), \
                 unittest.mock.patch("sys.stderr", new_callable=io.StringIO) as shown:
-            hyperlattice.run(bar(high=("30 mm", "20 mm", "20 mm"), end="100 us"), progress=True, threads=1)
-        self.assertRegex(shown.getvalue(), r"step \d+/\d+ \(\d+\.\d%\)  t \S+ s  dt \S+ s  ETA ")
-        with unittest.mock.patch("sys.stderr", new_callable=io.StringIO) as shown:
-            hyperlattice.run(bar())
-        self.assertEqual(shown.getvalue(), "")
+            job = Job()
+            line = _waiting.Progress(job, True)
+            line.show()
+            job.now = (50, 1e-6, 2e-8, 200)
+            line.start -= 20
+            line.show()
+            line.close()
+            _waiting.Progress(job, False).show()
+            hyperlattice.run(bar())  # standard error is no terminal
+        planning, steps = shown.getvalue().splitlines()
+        self.assertEqual(planning, "planning the body")
+        self.assertEqual(steps, "step 50/200 (25.0%)  t 1e-06 s  dt 2e-08 s  ETA 1:00")
+
+    def test_progress_in_a_notebook(self):
+        """A stand-in for IPython sees one display that is updated."""
+        shown = []
+        handle = types.SimpleNamespace(update=lambda data, raw: shown.append(("update", data, raw)))
+        ipython, display = types.ModuleType("IPython"), types.ModuleType("IPython.display")
+
+        def show(data, raw, display_id):
+            shown.append(("display", data, raw))
+            self.assertTrue(display_id)
+            return handle
+
+        display.display = show
+        modules = {"ipykernel": types.ModuleType("ipykernel"), "IPython": ipython, "IPython.display": display}
+        with unittest.mock.patch.dict(sys.modules, modules), \
+                unittest.mock.patch.multiple(_waiting.Progress, PATIENCE=0, PAUSE=0):
+            line = _waiting.Progress(types.SimpleNamespace(reached=lambda: (0, 0.0, 0.0, 0)), None)
+            line.show()
+            line.show()
+            line.close()
+        text = {"text/plain": "planning the body"}
+        self.assertEqual(shown, [("display", text, True), ("update", text, True)])
 
     def test_html(self):
         scene = bar(stages=[PROBE])
@@ -168,7 +221,8 @@ class Frames(FolderTest):
 
     def test_blocks(self):
         """Arrays of more than one block, the last of which is shorter."""
-        scene = bar(high=("60 mm", "20 mm", "20 mm"), end="1 us", stages=[{**FRAMES, "precision": "double", "every": 0}])
+        frames = {**FRAMES, "precision": "double", "every": 0}
+        scene = bar(high=("60 mm", "20 mm", "20 mm"), end="1 us", stages=[frames])
         simulation = hyperlattice.Simulation(scene)
         result = simulation.run()
         self.assertGreater(3 * 8 * result.summary["particles"], 1 << 19)

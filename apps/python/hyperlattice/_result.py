@@ -96,7 +96,8 @@ class Result:
         return self._series(writer).frame(frame).points()
 
     def __repr__(self) -> str:
-        return f"<Result {self.status}: {self.summary['particles']} particles, {self.summary['steps']} steps, {self.folder}>"
+        figures = f"{self.summary['particles']} particles, {self.summary['steps']} steps"
+        return f"<Result {self.status}: {figures}, {self.folder}>"
 
     def _repr_html_(self) -> str:
         return _html.result_page(self)

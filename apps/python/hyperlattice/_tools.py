@@ -70,8 +70,10 @@ def analyze(membrane: str = "", *, lattice: str = "lattices.cubic", options: Map
     """
     if not membrane and crystals is None:
         raise TypeError("analyze needs a membrane or a file of crystals")
-    return _done(_core.analyze(membrane=_membrane(membrane, poisson, lambda_, k_alpha, k_beta, k_gamma), lattice=lattice,
-                               options=_options(options), crystals="" if crystals is None else os.fspath(crystals)))
+    return _done(_core.analyze(
+        membrane=_membrane(membrane, poisson, lambda_, k_alpha, k_beta, k_gamma), lattice=lattice,
+        options=_options(options),
+        crystals="" if crystals is None else os.fspath(crystals)))
 
 
 def calibrate(membrane: str, *, lattice: str = "lattices.cubic", options: Mapping[str, Any] | None = None,
@@ -89,6 +91,8 @@ def calibrate(membrane: str, *, lattice: str = "lattices.cubic", options: Mappin
     program's arguments.
     """
     family = "" if each is None else f"{each[0]}={','.join(map(str, each[1]))}"
-    return _done(_core.calibrate(membrane=_membrane(membrane, poisson, lambda_, k_alpha, k_beta, k_gamma), lattice=lattice,
-                                 options=_options(options), young=young, spacing=spacing, parameters=parameters,
-                                 measure=measure, strain=strain, curve=curve, each=family, threads=thread_number(threads)))
+    return _done(_core.calibrate(
+        membrane=_membrane(membrane, poisson, lambda_, k_alpha, k_beta, k_gamma), lattice=lattice,
+        options=_options(options),
+        young=young, spacing=spacing, parameters=parameters, measure=measure, strain=strain, curve=curve, each=family,
+        threads=thread_number(threads)))
