@@ -22,6 +22,6 @@ install(FILES README.md CONTRIBUTING.md CHANGELOG.md CITATION.cff DESTINATION ${
 foreach(folder docs scenes)
   if(IS_DIRECTORY ${PROJECT_SOURCE_DIR}/${folder})
     install(DIRECTORY ${folder}/ DESTINATION ${share}/${folder} FILES_MATCHING PATTERN "*.md" PATTERN "*.csv" PATTERN "*.json" PATTERN "*.png" PATTERN "*.svg"
-            PATTERN "*.py")
+            PATTERN "*.py" PATTERN "*.ipynb")
   endif()
 endforeach()

@@ -1,5 +1,6 @@
-# A Debian package of the installed tree: `cpack --config build/release/CPackConfig.cmake`.
-# dpkg-shlibdeps finds the packages that its libraries need.
+# Debian packages of the installed tree, hyperlattice and python3-hyperlattice:
+# `cpack --config build/release/CPackConfig.cmake`. dpkg-shlibdeps finds the packages that their
+# libraries need.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME hyperlattice)
 set(CPACK_PACKAGE_CONTACT "The Hyperlattice maintainers")
@@ -10,5 +11,24 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "g++, cmake") # for the plugins of users
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_MAIN_PACKAGE_NAME hyperlattice)
+set(CPACK_DEBIAN_MAIN_PACKAGE_RECOMMENDS "g++, cmake") # for the plugins of users
+if(TARGET hyperlattice_python)
+  # The module fits one version of Python and exactly this version of the library.
+  math(EXPR next_minor "${HYPERLATTICE_PYTHON_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-hyperlattice)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "hyperlattice (= ${PROJECT_VERSION}), python3 (>= 3.${HYPERLATTICE_PYTHON_MINOR}), python3 (<< 3.${next_minor}), python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS python3-pandas)
+  set(CPACK_COMPONENT_GROUP_PYTHON_DESCRIPTION "${PROJECT_DESCRIPTION}: the Python package")
+endif()
+set(CPACK_COMPONENT_GROUP_MAIN_DESCRIPTION "${PROJECT_DESCRIPTION}")
 include(CPack)
+cpack_add_component_group(main)
+cpack_add_component_group(python)
+cpack_add_component(Unspecified GROUP main)
+cpack_add_component(plugins GROUP main)
+if(TARGET hyperlattice_python)
+  cpack_add_component(python GROUP python)
+endif()

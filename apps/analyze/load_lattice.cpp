@@ -3,6 +3,7 @@
 #include <scene/option_reader.hpp>
 #include <scene/settings.hpp>
 
+#include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 #include <nlohmann/json.hpp>
 
@@ -48,8 +49,8 @@ LatticeGeometry load_lattice(Host& host, const std::string& type,
     if (equals == std::string::npos || equals == 0)
       throw InputError(
           {{"--option", option, "name=value, with the name of one of the lattice's options"}});
-    if (const std::string wrong =
-            set_value(options, "/" + option.substr(0, equals), value_of(option.substr(equals + 1)));
+    if (const std::string wrong = set_value(options, fmt::format("/{}", option.substr(0, equals)),
+                                            value_of(option.substr(equals + 1)));
         !wrong.empty())
       throw InputError({{"--option", option, wrong}});
   }

@@ -1,10 +1,10 @@
 // hyperlattice: the four-dimensional lattice spring model from the command line.
 #include "commands.hpp"
-#include "environment.hpp"
 
 #include <base/errors.hpp>
 #include <host/crash.hpp>
 #include <process/descriptors.hpp>
+#include <process/environment.hpp>
 #include <process/file_limit.hpp>
 #include <process/lack_of_memory.hpp>
 #include <ranks/ranks.hpp>

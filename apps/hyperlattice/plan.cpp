@@ -6,20 +6,18 @@
 
 #include <plan/calibration.hpp>
 #include <plan/shortage.hpp>
-#include <process/processors.hpp>
+#include <plan/thread_choice.hpp>
 #include <scene/json.hpp>
 
 #include <nlohmann/json.hpp>
 
-#include <charconv>
-#include <cstdlib>
 #include <iostream>
 
 namespace hyperlattice {
 
 namespace {
 
-constexpr int most_threads = 4096, most_ranks = 1 << 20;
+constexpr int most_ranks = 1 << 20;
 
 /// Returns the default folder of `run`; empty if something else has its name.
 std::filesystem::path results_by_default(const std::filesystem::path& scene) {
@@ -41,22 +39,7 @@ void ThreadArgument::declare(CLI::App& command) {
       ->check(CLI::Range(1, most_threads));
 }
 
-Threads ThreadArgument::count(int node_ranks) const {
-  if (threads > 0) return threads;
-  const char* wish = std::getenv("OMP_NUM_THREADS");
-  if (wish == nullptr || *wish == '\0')
-    return Threads::up_to(std::min(processors_of_each(node_ranks), most_threads));
-  // OpenMP lists one number for each level of nesting; the first one counts.
-  const std::string_view list = wish, first = list.substr(0, list.find(','));
-  int number = 0;
-  const auto [end, error] = std::from_chars(first.data(), first.data() + first.size(), number);
-  if (error != std::errc() || end != first.data() + first.size() || number < 1 ||
-      number > most_threads)
-    throw InputError(
-        {{"OMP_NUM_THREADS", std::string(list),
-          "in the environment, a number of threads from 1 to " + std::to_string(most_threads)}});
-  return number;
-}
+Threads ThreadArgument::count(int node_ranks) const { return chosen_threads(threads, node_ranks); }
 
 void SceneArguments::declare(CLI::App& command) {
   command.add_option("SCENE", scene, "the scene file (JSON)")->required();

@@ -2,12 +2,8 @@
 // each run with the truth.
 #include "commands.hpp"
 
-#include <base/gnuplot.hpp>
 #include <scene/units.hpp>
-#include <study/report.hpp>
-#include <study/study_runs.hpp>
-
-#include <hyperlattice/files.hpp>
+#include <study/perform.hpp>
 
 #include <spdlog/spdlog.h>
 
@@ -39,19 +35,6 @@ double read_target(const std::string& text) {
   return fraction.value;
 }
 
-void write_results(const Study& study, const std::vector<Row>& rows, const Findings& findings,
-                   const std::filesystem::path& directory) {
-  write_file((directory / "study.csv").string(), study_csv(study, rows, findings));
-  write_file((directory / "study.json").string(), json_text(study_json(study, rows, findings)));
-  const std::string script = study_script(study, rows, findings);
-  if (script.empty()) return;
-  try {
-    draw_svg(directory / "study.svg", script, 860, 620);
-  } catch (const OutsideError& error) {
-    spdlog::warn("{}", error.what());  // only the picture is missing; the results are complete
-  }
-}
-
 int exit_code(const StudyResult& done) {
   if (done.interrupted) return exit_interrupted;
   int code = exit_done;
@@ -71,10 +54,7 @@ int run_study(Arguments a) {
 
   Host host;
   stop_gently_when_interrupted();
-  StudyResult done = run_study(study, grid(study), options, host);
-  auto limits = find_errors(study, options.directory, done.rows);
-  const Findings findings = find(study, done.rows, std::move(limits));
-  write_results(study, done.rows, findings, options.directory);
+  const auto [done, findings] = perform(study, options, host);
   std::cout << (a.json ? json_text(study_json(study, done.rows, findings))
                        : study_text(study, done.rows, findings))
             << std::flush;

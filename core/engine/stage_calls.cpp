@@ -46,6 +46,7 @@ StageCalls::StageCalls(const Model& model, Simulation& simulation, const Planned
       calls.meet_end(time_step);
       calls.host_.time = calls.simulation_.time();
       if (calls.hooks_.stepped) calls.hooks_.stepped(time_step);
+      if (calls.hooks_.advanced) calls.hooks_.advanced(true);
     });
   };
   host_.show = [](void* self) noexcept {
@@ -73,6 +74,7 @@ StageCalls::StageCalls(const Model& model, Simulation& simulation, const Planned
       calls.meet_end(length);
       calls.host_.time = calls.simulation_.time();
       if (calls.hooks_.stepped) calls.hooks_.stepped(length);
+      if (calls.hooks_.advanced) calls.hooks_.advanced(false);
     });
   };
   host_.take = [](void* self, double fraction, const double* displacement) noexcept {
@@ -80,6 +82,7 @@ StageCalls::StageCalls(const Model& model, Simulation& simulation, const Planned
     return calls.guarded([&] {
       calls.statics().accept(fraction, displacement);
       calls.host_.time = calls.simulation_.time();
+      if (calls.hooks_.advanced) calls.hooks_.advanced(false);
     });
   };
   host_.measure_rest = [](void* self, RestReport* report, double* kinetic) noexcept {

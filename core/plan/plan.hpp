@@ -7,6 +7,7 @@
 #include <plan/fields.hpp>
 #include <plan/identity.hpp>
 #include <plan/threads.hpp>
+#include <ranks/ranks.hpp>
 
 #include <hyperlattice/solver.hpp>
 
@@ -54,14 +55,15 @@ struct Plan {
   std::vector<PlannedTable> tables;               ///< in the order of the scene's probes
   std::map<const Stage*, FrameCost> frame_costs;  ///< of the writers that could be tried
   std::map<const Stage*, double> writer_bytes;    ///< of memory, of the writers that state it
-  int ranks = 1;                                  ///< processes of the run
-  int threads = 1;                                ///< of each rank
-  int blocks = 1;                                 ///< of the state, in all ranks together
-  double bytes_per_particle = 0;                  ///< of the state that the kernel works on
-  double memory_bytes = 0;                        ///< of the state, the model and the scratch
-  double output_bytes = 0;                        ///< estimated
-  double setup_seconds = 0;                       ///< spent on building the model
-  double expected_seconds = 0;  ///< estimated from the kernel's cost on a common machine
+  std::unique_ptr<Ranks> alone;   ///< of a run in this process; outlives its simulation
+  int ranks = 1;                  ///< processes of the run
+  int threads = 1;                ///< of each rank
+  int blocks = 1;                 ///< of the state, in all ranks together
+  double bytes_per_particle = 0;  ///< of the state that the kernel works on
+  double memory_bytes = 0;        ///< of the state, the model and the scratch
+  double output_bytes = 0;        ///< estimated
+  double setup_seconds = 0;       ///< spent on building the model
+  double expected_seconds = 0;    ///< estimated from the kernel's cost on a common machine
   std::vector<LeftOut> left_out;
   AskedFields used_fields;  ///< of each writer: fields that it names in begin()
 

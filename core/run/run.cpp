@@ -3,6 +3,7 @@
 #include <plan/shortage.hpp>
 #include <process/lack_of_memory.hpp>
 #include <run/interrupt.hpp>
+#include <run/observer.hpp>
 #include <run/run.hpp>
 #include <run/stage_sequence.hpp>
 #include <scene/json.hpp>
@@ -120,15 +121,18 @@ void solve(const Plan& plan, const RunOptions& options, RunFolder& folder,
     stages.emplace(plan, options, folder, *simulation, ranks);
     stages->begin(resumed);
     outcome.setup_seconds += seconds_since(start);
+    if (options.observer != nullptr) options.observer->begin(*simulation);
     stages->solve();
     stages->finish();
     folder.check_tables();
     if (ranks.agreed(Wish::stop) && may_be_short(plan, simulation->steps()))
       outcome.end("interrupted", exit_interrupted, "asked to stop by a signal");
   });
-  if (!stages) return;
-  attempt(plan, ranks, outcome, [&] { stages->drain(); });  // a run that fails keeps its frames
-  attempt(plan, ranks, outcome, [&] { stages->note(outcome); });
+  if (stages) {
+    attempt(plan, ranks, outcome, [&] { stages->drain(); });  // a run that fails keeps its frames
+    attempt(plan, ranks, outcome, [&] { stages->note(outcome); });
+  }
+  if (options.observer != nullptr && simulation) options.observer->keep(std::move(simulation));
 }
 
 /// Finishes the folder after the summary, which stays true if an error occurs here.
@@ -194,8 +198,8 @@ void conclude(const Plan& plan, const RunOptions& options, RunFolder& folder, Ou
 }  // namespace
 
 int run(Plan& plan, const RunOptions& options) {
-  Ranks alone;
-  return run(plan, options, alone);
+  plan.alone = std::make_unique<Ranks>();
+  return run(plan, options, *plan.alone);
 }
 
 int run(Plan& plan, const RunOptions& options, Ranks& ranks) {

@@ -9,6 +9,8 @@
 
 namespace hyperlattice {
 
+class RunObserver;
+
 struct RunOptions {
   std::filesystem::path directory;
   bool quiet = false;  ///< no progress lines
@@ -18,6 +20,7 @@ struct RunOptions {
   bool overwrite = false;
   /// Seconds between checkpoints; 0: only where the run is interrupted.
   double checkpoint_every = 600;
+  RunObserver* observer = nullptr;  ///< null: none (observer.hpp)
 };
 
 /// Runs a plan. Returns the exit code, and leaves summary.json unless writing it fails. Messages go

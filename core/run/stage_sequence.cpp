@@ -2,6 +2,7 @@
 #include <plan/precision.hpp>
 #include <run/failing_motion.hpp>
 #include <run/interrupt.hpp>
+#include <run/observer.hpp>
 #include <run/stage_sequence.hpp>
 
 #include <spdlog/spdlog.h>
@@ -54,7 +55,7 @@ void StageSequence::solve() {
 
 /// Returns whether all ranks have agreed to stop.
 bool StageSequence::must_stop() {
-  if (stop_requested()) ranks_.wish(Wish::stop);
+  if (hyperlattice::must_stop(options_)) ranks_.wish(Wish::stop);
   return ranks_.agreed(Wish::stop);
 }
 
@@ -77,6 +78,10 @@ void StageSequence::solve_stage(const PlannedStage& stage) {
                                 const std::vector<double>& heights) {
     write_motion(motion, heights);
   };
+  if (RunObserver* const observer = options_.observer; observer != nullptr)
+    hooks.advanced = [this, observer](bool can_change) {
+      observer->advanced(simulation_, can_change);
+    };
   hooks.must_stop = [this] { return must_stop(); };
   StageCalls(*plan_.model, simulation_, stage, plan_.threads, std::move(hooks), stage_steps_).run();
   if (must_stop()) {

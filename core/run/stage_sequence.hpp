@@ -23,7 +23,7 @@ class StageSequence {
   /// refuses, and std::runtime_error if the checkpoint does not fit.
   void begin(const std::optional<Checkpoint>& resumed);
 
-  /// Solves the stages until the last one ends, or until stop_requested(). Throws RunError if a
+  /// Solves the stages until the last one ends, or until must_stop(). Throws RunError if a
   /// solver or a check fails, and OutsideError or std::runtime_error if the disk refuses.
   void solve();
   /// Waits until all frames so far are written. Throws OutsideError if one was not.

@@ -52,6 +52,8 @@ struct Block {
   std::size_t number = 0;  ///< index among the blocks
   std::vector<Row> rows;   ///< the layout's rows with their boundary particles
   Numbers displacement[4], velocity[4];
+  /// Distance of the components of displacement, and of velocity, which are in one piece of memory.
+  std::size_t component_stride = 0;
   AlignedArray<std::uint16_t> alive;
   AlignedArray<std::uint8_t> material;
   AlignedArray<std::uint32_t> mixture;

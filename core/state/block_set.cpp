@@ -100,10 +100,10 @@ void BlockSet::allocate(Block& block, std::size_t number) {
     block.other_sums.resize(block.rows.size());
   block.sums.resize(block.rows.size());
   const bool at_once = is_mine(block) || keeps_whole_;
-  for (int c = 0; c < model_.degrees_of_freedom; ++c)
-    for (Numbers* field : {&block.displacement[c], &block.velocity[c]})
-      *field = at_once ? Numbers(precision, block.layout->sites)
-                       : Numbers(precision, block.layout->sites, FilledLater());
+  const auto components = static_cast<std::size_t>(model_.degrees_of_freedom);
+  for (Numbers* const motion : {block.displacement, block.velocity})
+    block.component_stride = Numbers::allocate_together(precision, block.layout->sites,
+                                                        std::span(motion, components), at_once);
   if (at_once)
     fill(block);
   else

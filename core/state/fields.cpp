@@ -63,6 +63,27 @@ void Simulation::heights(std::vector<double>& values) const {
   if (state_->blocks.model().degrees_of_freedom == 4) copy({false, 3, 1}, values);
 }
 
+Simulation::WholeMotion Simulation::whole_motion(bool velocity) const {
+  const BlockSet& blocks = state_->blocks;
+  const Block* only = nullptr;
+  std::uint64_t begin = 0, end = 0;
+  bool is_whole = true;
+  blocks.for_runs([&](const Block& block, std::uint64_t place, Particle, std::uint64_t count) {
+    if (only == nullptr) {
+      only = &block;
+      begin = place;
+    } else if (&block != only || place != end) {
+      is_whole = false;
+    }
+    end = place + count;
+  });
+  if (only == nullptr || !is_whole) return {};
+  const Numbers& x = (velocity ? only->velocity : only->displacement)[0];
+  return {static_cast<const std::byte*>(x.get()) +
+              begin * bytes_of(blocks.model().springs.choice.precision),
+          only->component_stride};
+}
+
 void Simulation::height_rates(std::vector<double>& values) const {
   values.clear();
   if (state_->blocks.model().degrees_of_freedom == 4) copy({true, 3, 1}, values);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <tuple>
 
 namespace hyperlattice {
@@ -249,7 +250,10 @@ void LocalForces::read_motion() {
 
 /// Computes the forces of the springs of a piece, and its energy.
 void LocalForces::find_forces(Piece& piece, bool keeps_energy) {
-  thread_local Buffers buffer;
+  // Not in the thread's own memory: a program that loads this library later, as Python does, has
+  // only about 1 kB of it left.
+  thread_local const auto own_buffer = std::make_unique<Buffers>();
+  Buffers& buffer = *own_buffer;
   const Spring& first = springs_[piece.begin];
   const NeighbourGeometry& geometry = model_.springs.neighbours[first.neighbour];
   const std::uint32_t count = piece.end - piece.begin;

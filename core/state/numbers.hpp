@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace hyperlattice {
 
@@ -27,6 +28,19 @@ class AlignedArray {
       : data_(static_cast<T*>(allocate_array(size * sizeof(T))), Free{size}), size_(size) {
     std::uninitialized_fill_n(data_.get(), size, T{});
   }
+  /// Makes arrays of `size` numbers at a distance of `stride` in one piece of memory. The first
+  /// array owns it. `at_once`: they are zeros; otherwise they are filled later.
+  static void allocate_together(std::size_t size, std::size_t stride,
+                                std::span<AlignedArray* const> arrays, bool at_once) {
+    const std::size_t all = stride * (arrays.size() - 1) + size;
+    *arrays[0] = at_once ? AlignedArray(all) : AlignedArray(all, FilledLater());
+    arrays[0]->size_ = size;
+    T* const first = arrays[0]->get();
+    for (std::size_t n = 1; n < arrays.size(); ++n) {
+      arrays[n]->data_ = {first + n * stride, Free{0, false}};
+      arrays[n]->size_ = size;
+    }
+  }
   T* get() const { return data_.get(); }
   std::size_t size() const { return size_; }
   T& operator[](std::size_t n) const { return data_.get()[n]; }
@@ -34,7 +48,10 @@ class AlignedArray {
  private:
   struct Free {
     std::size_t size = 0;
-    void operator()(T* data) const { free_array(data, size * sizeof(T)); }
+    bool owns = true;
+    void operator()(T* data) const {
+      if (owns) free_array(data, size * sizeof(T));
+    }
   };
   std::unique_ptr<T, Free> data_;
   std::size_t size_ = 0;
@@ -51,11 +68,23 @@ class Numbers {
     else
       doubles_ = AlignedArray<double>(size);
   }
-  Numbers(Precision precision, std::size_t size, FilledLater later) {
+  /// Makes arrays of one size, one behind the other in one piece of memory, each aligned to cache
+  /// lines. Returns the distance of their first numbers. The first array owns the memory.
+  /// `at_once`: they are zeros; otherwise they are filled later.
+  static std::size_t allocate_together(Precision precision, std::size_t size,
+                                       std::span<Numbers> arrays, bool at_once) {
+    const std::size_t line = cache_line / bytes_of(precision),
+                      stride = (size + line - 1) / line * line;
+    const auto allocate = [&]<class T>(AlignedArray<T> Numbers::*member) {
+      std::vector<AlignedArray<T>*> parts;
+      for (Numbers& one : arrays) parts.push_back(&(one.*member));
+      AlignedArray<T>::allocate_together(size, stride, parts, at_once);
+    };
     if (precision == Precision::floats)
-      floats_ = AlignedArray<float>(size, later);
+      allocate(&Numbers::floats_);
     else
-      doubles_ = AlignedArray<double>(size, later);
+      allocate(&Numbers::doubles_);
+    return stride;
   }
   void* get() const {
     return floats_.get() != nullptr ? static_cast<void*>(floats_.get()) : doubles_.get();

@@ -123,6 +123,15 @@ class Simulation {
   void displacements(std::vector<double>& xyz, Particle first, std::uint64_t count) const;
   void velocities(std::vector<double>& xyz) const;  ///< v(n-1/2), m/s
   void heights(std::vector<double>& values) const;
+  /// Displacement or velocity of all particles in their order, where it is one array in memory.
+  struct WholeMotion {
+    const void* first = nullptr;  ///< x of the first particle, m or m/s, in the run's precision
+    /// distance from x to y, z and, in a free membrane, the height
+    std::size_t component_stride = 0;
+  };
+  /// Returns the array if the body is in one block whose rows follow each other without gaps; a
+  /// null `first` otherwise. Later steps change the numbers.
+  WholeMotion whole_motion(bool velocity) const;
   /// Copies the bits of the springs that start at each particle's site: see KernelRequest::alive.
   void alive(std::vector<std::uint16_t>& bits) const;
   void height_rates(std::vector<double>& values) const;

@@ -1,5 +1,6 @@
-# The script makes the Debian package, unpacks it elsewhere and runs the program there. BUILD is the
-# folder of the build, CPACK the program.
+# The script makes the Debian packages, unpacks them elsewhere and runs the program and the Python
+# package there. BUILD is the folder of the build, CPACK the program, PYTHON the Python of the package;
+# empty: the build has no Python package.
 set(temporary $ENV{TMPDIR})
 if(NOT temporary)
   set(temporary /tmp)
@@ -37,6 +38,26 @@ foreach(file share/doc/hyperlattice/copyright share/hyperlattice/docs/guide/plug
     message(FATAL_ERROR "no ${file} in the package")
   endif()
 endforeach()
+file(GLOB python_package ${folder}/python3-hyperlattice_*.deb)
+if(PYTHON)
+  must_work(dpkg-deb --field ${python_package})
+  must_hold("${output}" "Package: python3-hyperlattice\n")
+  foreach(needed "hyperlattice \\(= " "python3 \\(>= 3" python3-numpy libstdc\\+\\+6)
+    must_hold("${output}" "Depends:[^\n]*${needed}")
+  endforeach()
+  must_work(dpkg-deb --contents ${package})
+  if(output MATCHES dist-packages)
+    file(REMOVE_RECURSE ${folder})
+    message(FATAL_ERROR "the package of the program holds parts of the Python package")
+  endif()
+  must_work(dpkg-deb --extract ${python_package} ${folder}/unpacked)
+  must_work(${CMAKE_COMMAND} -E env PYTHONPATH=${folder}/unpacked/usr/lib/python3/dist-packages ${PYTHON} -B -c
+    "import hyperlattice as h\nprint(h.__file__, h.analyze('I-m', poisson=0.1)['stable'])")
+  must_hold("${output}" "${folder}/unpacked/[^\n]*'mirrored': True")
+elseif(python_package)
+  file(REMOVE_RECURSE ${folder})
+  message(FATAL_ERROR "a Python package without Python")
+endif()
 must_work(${folder}/unpacked/usr/bin/hyperlattice plugins --why)
 must_hold("${output}" "${folder}/unpacked/usr/[^\n]*lattices.cubic.so")
 file(REMOVE_RECURSE ${folder})

@@ -1,0 +1,27 @@
+// A scene as Python names it, and its plan.
+#pragma once
+
+#include <plan/plan.hpp>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hyperlattice::python {
+
+struct SceneSource {
+  /// The scene's JSON. Files that it names are relative to the current folder. Empty: the scene is
+  /// in `file`.
+  std::optional<std::string> text;
+  std::filesystem::path file;
+  std::vector<std::string> settings;  ///< "/pointer=value", of a file
+  int threads = 0;                    ///< 0: not given, see chosen_threads()
+};
+
+/// Plans a scene. Scenes without plugins of their own share one host, so that no library is
+/// registered twice. Several threads may call it. Throws as read_scene() and make_plan() do.
+std::unique_ptr<Plan> plan_of(const SceneSource& source);
+
+}  // namespace hyperlattice::python
