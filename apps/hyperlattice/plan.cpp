@@ -61,15 +61,23 @@ void SceneArguments::declare(CLI::App& command) {
   command
       .add_option(
           "--set", settings,
-          "replace a value of the scene, e.g. --set /pipeline/1/poisson=0.23; may be repeated")
-      ->type_name("/POINTER=VALUE")
+          "replace a value of the scene, by its JSON pointer or by the name or type of a stage, "
+          "e.g. "
+          "--set /pipeline/1/poisson=0.23, --set solvers.explicit/end_time=2us; may be repeated")
+      ->type_name("/POINTER=VALUE|NAME/OPTION=VALUE")
       ->allow_extra_args(false);
   threads.declare(command);
 }
 
 std::unique_ptr<Plan> SceneArguments::plan(Host& host) const {
   const ElapsedTime elapsed_time;
-  return make_plan(read_scene(scene, settings, host), threads.count());
+  auto read = read_scene(scene, settings, host);
+  const Origins origins = read->origins;
+  try {
+    return make_plan(std::move(read), threads.count());
+  } catch (const InputError& error) {
+    throw origins.with_places(error);
+  }
 }
 
 Command plan_command(CLI::App& program) {

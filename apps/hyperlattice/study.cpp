@@ -3,7 +3,7 @@
 #include "commands.hpp"
 
 #include <base/gnuplot.hpp>
-#include <scene/units.hpp>
+#include <quantities/units.hpp>
 #include <study/report.hpp>
 #include <study/study_runs.hpp>
 

@@ -1,4 +1,5 @@
 #include <scene/common_options.hpp>
+#include <scene/document.hpp>
 #include <scene/expectation.hpp>
 #include <scene/option_reader.hpp>
 #include <scene/scene_reader.hpp>
@@ -7,8 +8,6 @@
 
 #include <spdlog/fmt/fmt.h>
 #include <nlohmann/json.hpp>
-
-#include <algorithm>
 
 namespace hyperlattice {
 
@@ -50,18 +49,20 @@ struct HeadingSchema {
 
 class SceneReader {
  public:
-  SceneReader(const Json& given, Scene& scene, Faults& faults, Catalogue& catalogue)
+  SceneReader(const Json& given, const Variables& variables, Scene& scene, Faults& faults,
+              Catalogue& catalogue)
       : given_(given),
         scene_(scene),
         faults_(faults),
         catalogue_(catalogue),
-        regions_(named_regions(), scene.regions, faults, scene.texts, scene.file.parent_path()) {}
+        regions_(named_regions(), scene.regions, faults, scene.texts, scene.origins, variables) {}
 
   void read() {
     if (!given_.is_object())
       return faults_.add("", shown(given_), "an object with format and pipeline");
     Json resolved;
-    OptionReader reader(given_, "", reading(), {"$schema", "regions", "pipeline"});
+    OptionReader reader(given_, "", reading(),
+                        {"$schema", "include", "variables", "regions", "pipeline"});
     if (const auto schema = given_.find("$schema"); schema != given_.end() && !schema->is_string())
       faults_.add("/$schema", shown(*schema),
                   "the place of the JSON Schema that editors check the scene by");
@@ -106,8 +107,12 @@ class SceneReader {
                          "no plugins of the scene's own, since --no-plugins was given");
     for (std::size_t n = 0; n < entries.size(); ++n) {
       if (!entries[n].is_string()) continue;
-      const auto outcomes =
-          catalogue_.add_scene_paths({entries[n].get<std::string>()}, scene_.file.parent_path());
+      if (has_variable(entries[n].get_ref<const std::string&>())) {
+        faults_.add(member("/plugins", n), shown(entries[n]), "a path without variables");
+        continue;
+      }
+      const auto outcomes = catalogue_.add_scene_paths(
+          {entries[n].get<std::string>()}, scene_.origins.folder_of(member("/plugins", n)));
       const SearchOutcome& outcome = outcomes.front();
       if (outcome.absent)
         faults_.add(member("/plugins", n), shown(entries[n]),
@@ -145,21 +150,68 @@ class SceneReader {
   std::vector<Fault> refusals_;
 };
 
+constexpr const char* variables_key = "variables";
+
+/// Puts the variables into the document. A variable that nothing uses is a warning if the scene's
+/// own file defines it: an included file may serve several scenes. It is a fault if only `--set`
+/// gives it, since a wrong name would otherwise change nothing.
+Variables insert_variables(Document& given, Faults& faults) {
+  Json& document = given.json;
+  if (!document.is_object()) return {};
+  Variables variables;
+  const auto found = document.find(variables_key);
+  if (found != document.end()) variables = Variables(*found, faults);
+  for (auto& [key, value] : document.items())
+    if (key != variables_key) variables.insert(value, member("", key), faults);
+  for (const std::string& name : variables.names()) {
+    if (variables.is_used(name)) continue;
+    const std::string pointer = member(member("", variables_key), name);
+    if (!given.variables.contains(name))
+      faults.add(pointer, shown((*found)[name]),
+                 "a variable that the scene uses" +
+                     did_you_mean(name, {given.variables.begin(), given.variables.end()}));
+    else if (given.origins.is_of_main_file(pointer))
+      faults.warn(given.origins.place_of(pointer), "nothing uses this variable");
+  }
+  return variables;
+}
+
+/// Reads a document after its changes.
+std::unique_ptr<Scene> read_merged(Document document, const std::filesystem::path& file,
+                                   Catalogue& catalogue, Faults& faults) {
+  auto scene = std::make_unique<Scene>();
+  scene->file = std::filesystem::absolute(file);
+  scene->origins = document.origins;
+  try {
+    const Variables variables = insert_variables(document, faults);
+    scene->variables = variables.numbers();
+    SceneReader(document.json, variables, *scene, faults, catalogue).read();
+    faults.throw_if_any();
+  } catch (const InputError& error) {
+    throw document.origins.with_places(error);
+  }
+  scene->warnings = faults.warnings();
+  return scene;
+}
+
 }  // namespace
+
+std::unique_ptr<Scene> read_scene_document(const Document& document,
+                                           const std::filesystem::path& file,
+                                           Catalogue& catalogue) {
+  Faults faults;
+  return read_merged(document, file, catalogue, faults);
+}
 
 std::unique_ptr<Scene> read_scene_text(std::string_view text, const std::filesystem::path& file,
                                        const std::vector<std::string>& settings,
                                        Catalogue& catalogue) {
   Faults faults;
-  Json json;
-  if (!parse_json(text, json, faults)) faults.throw_if_any();
-  apply_settings(json, settings, faults);
-  auto scene = std::make_unique<Scene>();
-  scene->file = std::filesystem::absolute(file);
-  SceneReader(json, *scene, faults, catalogue).read();
-  faults.throw_if_any();
-  scene->warnings = faults.warnings();
-  return scene;
+  Document document = read_document(text, file, faults);
+  // without a document, or with a part missing, further faults would be wrong
+  if (document.json.is_null() || !document.is_whole) faults.throw_if_any();
+  apply_settings(document.json, settings, faults);
+  return read_merged(std::move(document), file, catalogue, faults);
 }
 
 }  // namespace hyperlattice
