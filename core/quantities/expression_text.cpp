@@ -94,7 +94,7 @@ class Reader {
     if (at(at_) == ',' && is_cipher(at(at_ + 1)) && depth_is_zero())
       return fail("numbers have a decimal point, and no comma");
     const std::size_t unit = skip_blanks(at_);
-    if (!is_of_unit(at(unit))) return add({value, {}, value == 0, {}});
+    if (!is_of_unit(at(unit)) && !is_reciprocal_unit(unit)) return add({value, {}, value == 0, {}});
     at_ = end_of_unit(unit);
     const QuantityValue quantity = read_any_quantity(text_.substr(begin, at_ - begin));
     if (!quantity.problem.empty())
@@ -114,10 +114,20 @@ class Reader {
     return place;
   }
 
+  /// Returns the place behind the "/" of a unit such as "1/s"; 0 if there is none.
+  std::size_t behind_reciprocal(std::size_t place) const {
+    const std::size_t slash = skip_blanks(place + 1);
+    return at(place) == '1' && at(slash) == '/' ? skip_blanks(slash + 1) : 0;
+  }
+  bool is_reciprocal_unit(std::size_t place) const {
+    const std::size_t behind = behind_reciprocal(place);
+    return behind > 0 && is_of_unit(at(behind));
+  }
+
   /// Returns the end of the unit that begins at `begin`: its first factor, and all that follow as
   /// long as they are units and no names of the expression.
   std::size_t end_of_unit(std::size_t begin) const {
-    std::size_t end = end_of_factor(begin);
+    std::size_t end = end_of_factor(std::max(begin, behind_reciprocal(begin)));
     while (true) {
       std::size_t next = skip_blanks(end);
       const bool divides = at(next) == '/', dotted = at(next) == '.';

@@ -1,3 +1,4 @@
+#include <host/source_plugin.hpp>
 #include <scene/common_options.hpp>
 #include <scene/document.hpp>
 #include <scene/expectation.hpp>
@@ -33,8 +34,8 @@ struct HeadingSchema {
         .add<&Heading::title>("title", "", "what the scene shows")
         .fallback("\"\"")
         .add<&Heading::plugins>("plugins", "",
-                                "folders and libraries of plugins, relative to the scene's folder, "
-                                "searched before all others")
+                                "folders, libraries and source files of plugins, relative to the "
+                                "scene's folder, searched before all others")
         .fallback("[]")
         .add<&Heading::allow_unstable>("allow_unstable", "", allow_unstable_help)
         .fallback("false")
@@ -75,6 +76,8 @@ class SceneReader {
       scene_.interface_springs = given.interface_springs;
     }
     read_plugins(resolved);
+    // Types of a source that did not compile would only be unknown.
+    if (!all_compiled_) return finish();
     resolved["regions"] = Json::object();
     if (given_.contains("regions") && !given_["regions"].is_object())
       faults_.add("/regions", shown(given_["regions"]), "an object that gives names to regions");
@@ -111,19 +114,40 @@ class SceneReader {
         faults_.add(member("/plugins", n), shown(entries[n]), "a path without variables");
         continue;
       }
-      const auto outcomes = catalogue_.add_scene_paths(
-          {entries[n].get<std::string>()}, scene_.origins.folder_of(member("/plugins", n)));
+      const std::filesystem::path folder = scene_.origins.folder_of(member("/plugins", n));
+      const std::filesystem::path source =
+          (folder / entries[n].get<std::string>()).lexically_normal();
+      std::string entry = entries[n].get<std::string>();
+      const bool is_source = is_plugin_source(source) && std::filesystem::is_regular_file(source);
+      if (is_source && !compile(source, n, entry)) continue;
+      const auto outcomes = catalogue_.add_scene_paths({entry}, folder);
       const SearchOutcome& outcome = outcomes.front();
       if (outcome.absent)
-        faults_.add(member("/plugins", n), shown(entries[n]),
-                    fmt::format("a folder or library; there is no {}", outcome.path.string()));
+        faults_.add(
+            member("/plugins", n), shown(entries[n]),
+            fmt::format("a folder, library or source file; there is no {}", outcome.path.string()));
       else if (!outcome.accepted)
         refusals_.push_back({member("/plugins", n), shown(entries[n]), outcome.reason});
       else if (!is_utf8(outcome.path.string()))
         faults_.add(member("/plugins", n), shown(entries[n]),
                     fmt::format("a path in UTF-8, and not {}", outcome.path.string()));
-      if (resolved.contains("plugins")) resolved["plugins"][n] = outcome.path.string();
+      if (resolved.contains("plugins"))
+        resolved["plugins"][n] = is_source ? source.string() : outcome.path.string();
     }
+  }
+
+  /// Compiles an entry of "plugins" that is a source file; `library` gets its library. Returns
+  /// false after a fault or a refusal.
+  bool compile(const std::filesystem::path& source, std::size_t n, std::string& library) {
+    const CompiledPlugin compiled = compile_plugin(source);
+    const std::string pointer = member("/plugins", n), given = shown(given_["plugins"][n]);
+    library = compiled.library.string();
+    if (compiled.problem == CompiledPlugin::Problem::source)
+      faults_.add(pointer, given, "a source file that can be compiled; " + compiled.sentence);
+    else if (compiled.problem == CompiledPlugin::Problem::outside)
+      refusals_.push_back({pointer, given, compiled.sentence});
+    all_compiled_ = all_compiled_ && compiled.problem == CompiledPlugin::Problem::none;
+    return compiled.problem == CompiledPlugin::Problem::none;
   }
 
   /// Throws InputError if there are faults; refused libraries are then faults, too. Throws
@@ -148,6 +172,7 @@ class SceneReader {
   RegionReader regions_;
   // refused libraries: pointer and value of the place that names them, and the reason
   std::vector<Fault> refusals_;
+  bool all_compiled_ = true;
 };
 
 constexpr const char* variables_key = "variables";
