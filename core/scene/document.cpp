@@ -14,6 +14,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* include_key = "include";
 constexpr std::size_t most_files = 1000;
+constexpr std::size_t most_bytes = std::size_t{64} << 20U;  // of all included files
 
 /// Returns whether lists at this pointer are joined and not replaced.
 bool is_joined(const std::string& pointer) {
@@ -102,6 +103,12 @@ class DocumentReader {
         faults_.add(fault.pointer, fault.value, fault.expected);
       return;
     }
+    bytes_ += text.size();
+    if (bytes_ > most_bytes) {
+      faults_.add(at, shown(name),
+                  fmt::format("at most {} MB of included files", most_bytes >> 20U));
+      return;
+    }
     add_file(text, included);
   }
 
@@ -152,7 +159,8 @@ class DocumentReader {
   fs::path root_;
   Faults& faults_;
   Document document_;
-  bool several_ = false;  // a file includes others
+  std::size_t bytes_ = 0;  // of included files
+  bool several_ = false;   // a file includes others
   std::set<fs::path> seen_;
   std::vector<fs::path> under_way_;
 };

@@ -67,6 +67,9 @@ class SceneReader {
     if (const auto schema = given_.find("$schema"); schema != given_.end() && !schema->is_string())
       faults_.add("/$schema", shown(*schema),
                   "the place of the JSON Schema that editors check the scene by");
+    if (const auto include = given_.find("include"); include != given_.end())
+      faults_.add("/include", shown(*include),
+                  "this key in a file: files are included before --set changes the scene");
     const OptionsPointer heading = reader.fill(option_set<HeadingSchema>(), resolved);
     if (heading) {
       const auto& given = *static_cast<const Heading*>(heading.get());

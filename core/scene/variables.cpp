@@ -12,6 +12,11 @@ namespace hyperlattice {
 namespace {
 
 constexpr std::string_view opening = "${";
+// levels of variables within variables, which are read by recursion
+constexpr std::size_t most_levels = 64;
+// values in place of names: lists of names of lists grow fast
+constexpr std::size_t most_inserted = 1'000'000;
+constexpr std::size_t longest_filled = 1U << 20U;  // bytes of a text with variables
 
 bool is_name(std::string_view name) {
   const auto is_letter = [](char c) {
@@ -81,6 +86,8 @@ void Variables::define(const std::string& name, Faults& faults) {
                       fmt::join(circle, under_way_.end(), " -> "), name));
     return;
   }
+  if (under_way_.size() == most_levels)
+    return wrong(fmt::format("at most {} levels of variables within variables", most_levels));
   under_way_.push_back(name);
   Json value = given;
   insert(value, pointer, faults);
@@ -106,9 +113,25 @@ void Variables::insert(Json& value, const std::string& pointer, Faults& faults) 
   } else if (value.is_string() && has_variable(value.get_ref<const std::string&>())) {
     const std::string text = value.get<std::string>();
     check_names(text, pointer, faults);
-    if (const auto found = values_.find(only_name(text)); found != values_.end())
+    if (const auto found = values_.find(only_name(text));
+        found != values_.end() && can_stand(found->second, pointer, faults))
       value = found->second;
   }
+}
+
+/// Returns whether a value may stand in place of a name; after too many values, adds one fault.
+bool Variables::can_stand(const Json& value, const std::string& pointer, Faults& faults) {
+  const auto count = [](const auto& self, const Json& of) -> std::size_t {
+    std::size_t all = 1;
+    if (of.is_structured())
+      for (const Json& inner : of) all += self(self, inner);
+    return all;
+  };
+  if (inserted_ > most_inserted) return false;
+  inserted_ += count(count, value);
+  if (inserted_ > most_inserted)
+    faults.add(pointer, "", fmt::format("at most {} values from variables", most_inserted));
+  return inserted_ <= most_inserted;
 }
 
 void Variables::check_names(const std::string& text, const std::string& pointer, Faults& faults) {
@@ -129,16 +152,20 @@ void Variables::check_names(const std::string& text, const std::string& pointer,
 
 /// Counts a variable as used, and those that it uses.
 void Variables::use(const std::string& name) {
-  if (!under_way_.empty() || !used_.insert(name).second) return;
-  const Json given = given_.at(name);
+  if (!under_way_.empty()) return;
+  std::vector<std::string> next{name};
   const auto visit = [&](const auto& self, const Json& value) -> void {
     if (value.is_structured())
       for (const Json& inner : value) self(self, inner);
     else if (value.is_string())
-      for (const std::string& other : names_in(value.get_ref<const std::string&>()))
-        if (given_.contains(other)) use(other);
+      for (std::string& other : names_in(value.get_ref<const std::string&>()))
+        if (given_.contains(other)) next.push_back(std::move(other));
   };
-  visit(visit, given);
+  while (!next.empty()) {
+    const std::string one = std::move(next.back());
+    next.pop_back();
+    if (used_.insert(one).second) visit(visit, given_.at(one));
+  }
 }
 
 bool Variables::is_faulty(std::string_view text) const {
@@ -183,6 +210,10 @@ std::string Variables::fill(const std::string& text, std::string& problem) const
     else
       filled += found->second.is_string() ? found->second.get<std::string>() : found->second.dump();
     at = close + 1;
+    if (filled.size() > longest_filled) {
+      problem = fmt::format("the text is longer than {} bytes", longest_filled);
+      break;
+    }
   }
   return filled + text.substr(at);
 }

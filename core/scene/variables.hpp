@@ -51,12 +51,14 @@ class Variables {
   void define(const std::string& name, Faults& faults);
   void check_names(const std::string& text, const std::string& pointer, Faults& faults);
   void use(const std::string& name);
+  bool can_stand(const Json& value, const std::string& pointer, Faults& faults);
 
   std::vector<std::string> names_;
   std::map<std::string, Json> given_;   // by name
   std::map<std::string, Json> values_;  // by name: what "${name}" stands for; only valid ones
   std::set<std::string> faulty_, used_;
   std::vector<std::string> under_way_;
+  std::size_t inserted_ = 0;  ///< values that stand in place of a name so far
 };
 
 }  // namespace hyperlattice

@@ -140,6 +140,26 @@ TEST(Variables, WrongNamesAndCirclesAreFaults) {
             "/variables/a: \"1 + ${b}\": expected a known variable; there is no \"b\"");
 }
 
+TEST(Variables, DoNotGrowBeyondBounds) {
+  std::string doubled = R"({ "v0": [1, 2])", chain = R"({ "v0": 1)";
+  for (int n = 1; n < 60; ++n) {
+    const std::string before = "\"${v" + std::to_string(n - 1) + "}\"",
+                      name = ", \"v" + std::to_string(n) + "\": ";
+    doubled += name + "[" + before + ", " + before + "]";
+  }
+  for (int n = 1; n < 5000; ++n)
+    chain += ", \"v" + std::to_string(n) + "\": \"${v" + std::to_string(n + 1) + "}\"";
+  chain += R"(, "v5000": 1)";
+  EXPECT_PRED2(says, message({doubled + "}", {"/title=x ${v59}"}}),
+               "expected at most 1000000 values from variables");
+  EXPECT_PRED2(says, message({chain + "}", {"/title=x ${v1}"}}),
+               "expected at most 64 levels of variables within variables");
+  const std::string long_text = "{ \"a\": \"" + std::string(1000, 'x') + "\" }";
+  std::string many = "/title=x";
+  for (int n = 0; n < 2000; ++n) many += "${a}";
+  EXPECT_PRED2(says, message({long_text, {many}}), "the text is longer than");
+}
+
 TEST(Variables, UnusedOnesAreNoticed) {
   EXPECT_EQ(read({R"({ "a": 1, "b": "${a}" })", {}})->warnings,
             (std::vector<std::string>{"/variables/a: nothing uses this variable",
@@ -262,6 +282,7 @@ TEST_F(Include, SettingsChangeTheMergedScene) {
   const auto changed = read(scene, {"/variables/h=4 mm", "solvers.march/end_time=3 us"});
   EXPECT_EQ(Json::parse(changed->resolved)["pipeline"][0]["spacing"], 0.004);
   EXPECT_EQ(Json::parse(changed->resolved)["pipeline"][2]["end_time"], 3e-6);
+  EXPECT_THROW(read(scene, {"/include=other.json"}), InputError);
 }
 
 }  // namespace variables_test
