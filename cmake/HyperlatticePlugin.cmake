@@ -8,6 +8,19 @@
 #     also builds the kernels of the law, once for each instruction set. The program chooses
 #     one of them at run time.
 
+# Sets the flags of kernels: `variants`, flags_<variant>, `kernel_flags`.
+macro(hyperlattice_kernel_flags)
+  set(variants baseline)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    list(APPEND variants avx2 avx512)
+  endif()
+  # -Wno-psabi: the calling convention of vectors does not matter, as they stay inside one file.
+  set(flags_baseline -Wno-psabi)
+  set(flags_avx2 -march=x86-64-v3 -Wno-psabi)
+  set(flags_avx512 -march=x86-64-v4 -mprefer-vector-width=512)
+  set(kernel_flags -O3 -fno-math-errno -fno-trapping-math -ffp-contract=fast -fno-signed-zeros)
+endmacro()
+
 function(hyperlattice_add_plugin type)
   add_library(${type} MODULE ${ARGN})
   set_target_properties(${type} PROPERTIES PREFIX "" OUTPUT_NAME ${type} CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
@@ -26,14 +39,7 @@ function(hyperlattice_add_material type)
   list(GET ARG_LAW 1 law)
   hyperlattice_add_plugin(${type} ${ARG_UNPARSED_ARGUMENTS})
   target_include_directories(${type} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
-  set(variants baseline)
-  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-    list(APPEND variants avx2 avx512)
-  endif()
-  # -Wno-psabi: the calling convention of vectors does not matter, as they stay inside one file.
-  set(flags_baseline -Wno-psabi)
-  set(flags_avx2 -march=x86-64-v3 -Wno-psabi)
-  set(flags_avx512 -march=x86-64-v4 -mprefer-vector-width=512)
+  hyperlattice_kernel_flags()
   # Kernels would take many minutes to compile with sanitizers. Sanitizers still check the callers
   # of kernels.
   if(HYPERLATTICE_SANITIZE)
@@ -52,7 +58,7 @@ HYPERLATTICE_KERNELS(@law@)
 ")
     target_sources(${type} PRIVATE ${file})
     set_source_files_properties(${file} PROPERTIES COMPILE_OPTIONS
-      "${flags_${variant}};-O3;-fno-math-errno;-fno-trapping-math;-ffp-contract=fast;-fno-signed-zeros")
+      "${flags_${variant}};${kernel_flags}")
   endforeach()
   if("avx2" IN_LIST variants)
     target_compile_definitions(${type} PRIVATE HYPERLATTICE_X86_KERNELS)

@@ -25,3 +25,18 @@ foreach(folder docs scenes)
             PATTERN "*.py" PATTERN "*.ipynb")
   endif()
 endforeach()
+
+# The program compiles plugins that are one source file with the settings of hyperlattice_add_plugin
+# and hyperlattice_add_material. It reads them from the file compile_flags beside the plugins.
+hyperlattice_kernel_flags()
+list(JOIN kernel_flags " " words)
+set(compile_flags "plugin -std=c++20 -O2 -DNDEBUG -fPIC -fvisibility=hidden -fvisibility-inlines-hidden -fdiagnostics-color=never\nkernels ${words}\n")
+foreach(variant ${variants})
+  list(JOIN flags_${variant} " " words)
+  string(APPEND compile_flags "instructions ${variant} ${words}\n")
+endforeach()
+file(RELATIVE_PATH headers "/${CMAKE_INSTALL_LIBDIR}/hyperlattice" "/${CMAKE_INSTALL_INCLUDEDIR}")
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/lib/hyperlattice/compile_flags
+     CONTENT "include ${PROJECT_SOURCE_DIR}/core/sdk/include\ninclude ${PROJECT_SOURCE_DIR}/core/kernels/include\n${compile_flags}" @ONLY)
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/installed/compile_flags CONTENT "include ${headers}\n${compile_flags}" @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/installed/compile_flags DESTINATION ${CMAKE_INSTALL_LIBDIR}/hyperlattice)

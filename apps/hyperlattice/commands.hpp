@@ -31,8 +31,9 @@ Command calibrate_command(CLI::App& program);
 Command study_command(CLI::App& program);
 Command report_command(CLI::App& program);
 
-/// Writes the project of a plugin of this type into a new folder, by default ./<name>. Throws
-/// InputError if the family is unknown or the folder exists.
+/// Writes the project of a plugin of this type into a new folder, by default ./<name>, or, if
+/// `folder` is the name of a source (my_law.cpp), one file. Throws InputError if the family is
+/// unknown or the folder or file exists.
 int write_new_plugin(const std::string& type, std::filesystem::path folder);
 
 /// Runs the contract tests of the components; prints a line for each check and the counts. Returns

@@ -4,6 +4,7 @@
 #include "starters.hpp"
 
 #include <base/errors.hpp>
+#include <host/source_plugin.hpp>
 
 #include <hyperlattice/files.hpp>
 
@@ -51,6 +52,36 @@ bool is_name(std::string_view name) {
          std::all_of(name.begin(), name.end(), fits);
 }
 
+/// Returns a text of the template with the plugin's names in it.
+std::string named(std::string_view text, const std::string& starter, const std::string& name) {
+  return replaced(replaced(std::string(text), starter, name), class_name(starter),
+                  class_name(name));
+}
+
+/// Writes the plugin as one source file, which a scene can name in "plugins".
+int write_source(const std::string& family, const std::string& name,
+                 const std::filesystem::path& file) {
+  if (std::filesystem::exists(file))
+    throw InputError({{"--out", file.string(), "a name that is free"}});
+  const std::string starter = starter_name(family);
+  const auto find = [&](const char* suffix) {
+    return std::find_if(starter_files.begin(), starter_files.end(), [&](const StarterFile& one) {
+      return one.path == fmt::format("{}/{}.{}", family, starter, suffix);
+    });
+  };
+  if (find("hpp") != starter_files.end())
+    throw InputError({{"--new", fmt::format("{}.{}", family, name),
+                       "a family whose project has one source, for a single file; leave out --out "
+                       "for a project"}});
+  write_file(file.string(), named(find("cpp")->text, starter, name));
+  const std::string type = fmt::format("{}.{}", family == "surfaces" ? "failures" : family, name);
+  spdlog::info(
+      "{} in {}: name it in a scene as \"plugins\": [\"{}\"], test it with\n  hyperlattice "
+      "plugins --test {} --plugin-path {}",
+      type, file.string(), file.filename().string(), type, file.string());
+  return exit_done;
+}
+
 }  // namespace
 
 int write_new_plugin(const std::string& type, std::filesystem::path folder) {
@@ -65,6 +96,7 @@ int write_new_plugin(const std::string& type, std::filesystem::path folder) {
         {{"--new", type,
           fmt::format("one of {}, a dot, and a name of small letters, digits and underscores",
                       fmt::join(families, ", "))}});
+  if (is_plugin_source(folder)) return write_source(family, name, folder);
   if (folder.empty()) folder = name;
   if (std::filesystem::exists(folder))
     throw InputError({{"--out", folder.string(), "a folder that is not there yet"}});
@@ -73,11 +105,8 @@ int write_new_plugin(const std::string& type, std::filesystem::path folder) {
   std::filesystem::create_directories(folder);
   for (const StarterFile& file : starter_files) {
     if (file.path.substr(0, file.path.find('/')) != family) continue;
-    const auto named = [&](std::string_view text) {
-      return replaced(replaced(std::string(text), starter, name), class_name(starter),
-                      class_name(name));
-    };
-    write_file((folder / named(file.path.substr(family.size() + 1))).string(), named(file.text));
+    write_file((folder / named(file.path.substr(family.size() + 1), starter, name)).string(),
+               named(file.text, starter, name));
   }
   spdlog::info(
       "{} in {}: build and test it with\n  cmake -S {} -B {}/build && cmake --build {}/build && "

@@ -46,8 +46,10 @@ void SceneArguments::declare(CLI::App& command) {
   command
       .add_option(
           "--set", settings,
-          "replace a value of the scene, e.g. --set /pipeline/1/poisson=0.23; may be repeated")
-      ->type_name("/POINTER=VALUE")
+          "replace a value of the scene, by its JSON pointer or by the name or type of a stage, "
+          "e.g. "
+          "--set /pipeline/1/poisson=0.23, --set solvers.explicit/end_time=2us; may be repeated")
+      ->type_name("/POINTER=VALUE|NAME/OPTION=VALUE")
       ->allow_extra_args(false);
   threads.declare(command);
 }

@@ -2,6 +2,7 @@
 // tests components.
 #include "commands.hpp"
 
+#include <host/source_plugin.hpp>
 #include <scene/json.hpp>
 
 #include <spdlog/fmt/fmt.h>
@@ -97,8 +98,23 @@ void make_folder(const std::filesystem::path& pictures) {
       fmt::format("cannot create the folder {}: {}", pictures.string(), error.message()));
 }
 
+/// Returns the paths with the library of each source file in its place. Throws InputError if a
+/// source does not compile.
+std::vector<std::filesystem::path> with_libraries(std::vector<std::filesystem::path> paths) {
+  for (std::filesystem::path& path : paths) {
+    if (!is_plugin_source(path) || !std::filesystem::is_regular_file(path)) continue;
+    const CompiledPlugin compiled = compile_plugin(path);
+    if (compiled.problem == CompiledPlugin::Problem::source)
+      throw InputError({{"--plugin-path", path.string(),
+                         "a source file that can be compiled; " + compiled.sentence}});
+    if (compiled.problem == CompiledPlugin::Problem::outside) throw OutsideError(compiled.sentence);
+    path = compiled.library;
+  }
+  return paths;
+}
+
 int show(const Arguments& arguments) {
-  Host host(arguments.folders);
+  Host host(with_libraries(arguments.folders));
   if (!arguments.new_type.empty()) {
     if (const Component* taken = host.find(arguments.new_type))
       throw InputError({{"--new", arguments.new_type,
@@ -133,8 +149,10 @@ Command plugins_command(CLI::App& program) {
       "list what a scene can name, document or test components, or begin one of your own");
   command->add_option("NAME", arguments->names, "components, e.g. loads.blast; all if left out");
   command
-      ->add_option("--plugin-path", arguments->folders,
-                   "a folder to look into before all others; may be given several times")
+      ->add_option(
+          "--plugin-path", arguments->folders,
+          "a folder to look into before all others, a library or a source file; may be given "
+          "several times")
       ->type_name("DIR")
       ->allow_extra_args(false);
   command->add_flag("--why", arguments->why,
@@ -150,8 +168,10 @@ Command plugins_command(CLI::App& program) {
   command->add_option(
       "--new", arguments->new_type,
       "write a project of your own for a plugin of this type, e.g. failures.my_law");
-  command->add_option("--out", arguments->out,
-                      "with --new: the folder to write; ./<name> if left out");
+  command->add_option(
+      "--out", arguments->out,
+      "with --new: the folder to write, ./<name> if left out; or one source file, such as "
+      "my_law.cpp");
   return {command, [arguments] { return show(*arguments); }};
 }
 

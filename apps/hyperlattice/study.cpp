@@ -2,7 +2,7 @@
 // each run with the truth.
 #include "commands.hpp"
 
-#include <scene/units.hpp>
+#include <quantities/units.hpp>
 #include <study/perform.hpp>
 
 #include <spdlog/spdlog.h>

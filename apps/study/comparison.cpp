@@ -1,5 +1,5 @@
+#include <quantities/units.hpp>
 #include <scene/expectation.hpp>
-#include <scene/units.hpp>
 #include <study/comparison.hpp>
 
 #include <hyperlattice/tables.hpp>

@@ -76,7 +76,7 @@ std::vector<Point> grid(const Study& study) {
                     [&](const Condition& condition) { return condition.holds(choice); }))
       continue;
     Point& point = points.emplace_back(
-        Point{choice, name_of(study.axes, choice, taken), study.scene, std::nullopt});
+        Point{choice, name_of(study.axes, choice, taken), study.scene.json, std::nullopt});
     for (std::size_t a = 0; a < study.axes.size(); ++a) setter.set(point, study.axes[a], choice[a]);
     if (std::none_of(study.truths.begin(), study.truths.end(),
                      [&](const Truth& truth) { return truth.when.holds(choice); }))

@@ -54,8 +54,10 @@ class StudyReader {
   StudyReader(const Json& given, Study& study) : given_(given), study_(study) {}
 
   void read() {
-    const auto heading =
-        reader_.read<Heading>(given_, "", {"scene", "set", "vary", "exclude", "truth", "compare"});
+    if (given_.is_object() && given_.contains("$schema") && !given_["$schema"].is_string())
+      faults_.add("/$schema", shown(given_["$schema"]), "the place of a JSON Schema, a text");
+    const auto heading = reader_.read<Heading>(
+        given_, "", {"$schema", "scene", "set", "vary", "exclude", "truth", "compare"});
     if (!given_.is_object()) return faults_.throw_if_any();
     for (const char* key : {"scene", "vary", "truth", "compare"})
       if (!given_.contains(key))
@@ -114,20 +116,24 @@ class StudyReader {
       try {
         const std::string text = read_input_file(study_.scene_file, "/scene",
                                                  "the path of a scene, relative to the study");
-        Faults faults;
-        parse_json(text, study_.scene, faults);
-        for (const Fault& fault : faults.all())
-          faults_.add("scene " + fault.pointer, fault.value, fault.expected);
+        read_scene_text(text);
       } catch (const InputError& error) {
         for (const Fault& fault : error.faults())
           faults_.add(fault.pointer, fault.value, fault.expected);
       }
     } else if (given.is_object()) {
-      study_.scene = given;
+      read_scene_text(given.dump());
     } else {
       faults_.add("/scene", shown(given), "a scene, or the path of one, relative to the study");
     }
-    if (given_.contains("set") && study_.scene.is_object()) set(given_["set"]);
+    if (given_.contains("set") && study_.scene.json.is_object()) set(given_["set"]);
+  }
+
+  void read_scene_text(const std::string& text) {
+    Faults faults;
+    study_.scene = read_document(text, study_.scene_file, faults);
+    for (const Fault& fault : faults.all())
+      faults_.add("scene " + fault.pointer, fault.value, fault.expected);
   }
 
   void set(const Json& changes) {
@@ -135,7 +141,7 @@ class StudyReader {
       return faults_.add("/set", shown(changes),
                          "an object of JSON pointers into the scene, each with a value");
     for (const auto& item : changes.items())
-      if (const std::string expected = set_value(study_.scene, item.key(), item.value());
+      if (const std::string expected = set_value(study_.scene.json, item.key(), item.value());
           !expected.empty())
         faults_.add(member("/set", item.key()), shown(item.value()), expected);
   }

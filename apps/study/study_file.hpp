@@ -1,6 +1,7 @@
 // The content of a study file: a scene, the axes, the truth and the norm of the error.
 #pragma once
 
+#include <scene/document.hpp>
 #include <study/comparison.hpp>
 #include <study/peers.hpp>
 
@@ -10,7 +11,7 @@ namespace hyperlattice::study {
 struct Study {
   std::filesystem::path file;
   std::string title;
-  Json scene;  ///< after the study's "set", not yet validated
+  Document scene;  ///< after the study's "set", not yet validated
   /// File of the scene; the study's own file if the scene is inline.
   std::filesystem::path scene_file;
   std::vector<Axis> axes;

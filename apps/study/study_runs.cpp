@@ -39,6 +39,12 @@ Json summary_in(const fs::path& folder) {
   return summary.is_object() ? summary : Json(Json::value_t::discarded);
 }
 
+/// Returns the name of the variable at a JSON pointer into a scene; empty for other pointers.
+std::string variable_at(const std::string& pointer) {
+  constexpr std::string_view above = "/variables/";
+  return pointer.starts_with(above) ? pointer.substr(above.size()) : "";
+}
+
 /// A run that exists already.
 struct EarlierRun {
   Json summary;         ///< null if the run does not exist, is not done, or cannot be reused
@@ -170,7 +176,8 @@ class StudyRuns {
     return point.threads ? Threads(*point.threads) : options_.threads;
   }
   std::unique_ptr<Scene> read(const Point& point) const {
-    return read_scene_text(point.scene.dump(), study_.scene_file, host_);
+    return read_scene_document({point.scene, study_.scene.origins, study_.scene.variables},
+                               study_.scene_file, host_);
   }
 
   /// Returns the properties of the finished or planned run; nothing if it is too large for this
@@ -207,6 +214,11 @@ class StudyRuns {
       auto& number = found.emplace_back();
       if (axis.is_threads()) {
         number = threads(point).most();
+        continue;
+      }
+      if (const auto variable = scene.variables.find(variable_at(axis.pointers.front()));
+          variable != scene.variables.end()) {
+        number = variable->second;
         continue;
       }
       const Json::json_pointer place(axis.pointers.front());

@@ -333,9 +333,6 @@ void set_springs(Model& model, Faults& faults) {
       springs.criteria = true;
       if (!criterion.stage->functions<FailureFunctions>().asks_rate) continue;
       springs.asks_rate = true;
-      if (model.body.is_listed())
-        faults.add(criterion.stage->pointer, criterion.stage->component->type(),
-                   "a criterion that does not ask for the rate, for a listed lattice");
     }
   find_laws(model);
   set_cohesive(model, faults);

@@ -121,43 +121,56 @@ void set_blocks(Plan& plan, int blocks) {
   estimate_time(plan);
 }
 
-std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, Threads threads, int ranks) {
-  const auto start = std::chrono::steady_clock::now();
-  auto plan = std::make_unique<Plan>();
-  plan->scene = std::move(scene);
-  plan->ranks = ranks;
-  plan->identity = identity_of(*plan->scene);
+namespace {
+
+/// Plans all but the scene and the ranks.
+void fill(Plan& plan, Threads threads) {
+  plan.identity = identity_of(*plan.scene);
   try {
-    plan->model = build_model(*plan->scene);
+    plan.model = build_model(*plan.scene);
   } catch (const std::bad_alloc&) {
     throw OutsideError(
         "out of memory while the lattice was built: too many particles for this machine; " +
         lack_of_memory());
   }
-  std::vector<std::string>& warnings = plan->model->warnings;
-  warnings.insert(warnings.begin(), plan->scene->warnings.begin(), plan->scene->warnings.end());
-  plan->body = body_figures(*plan->model);
-  for (std::string& warning : size_warnings(plan->body, plan->model->body.grid.spacing))
+  std::vector<std::string>& warnings = plan.model->warnings;
+  warnings.insert(warnings.begin(), plan.scene->warnings.begin(), plan.scene->warnings.end());
+  plan.body = body_figures(*plan.model);
+  for (std::string& warning : size_warnings(plan.body, plan.model->body.grid.spacing))
     warnings.push_back(std::move(warning));
-  if (std::string warning = loose_warning(plan->model->body, plan->body.parts); !warning.empty())
+  if (std::string warning = loose_warning(plan.model->body, plan.body.parts); !warning.empty())
     warnings.push_back(std::move(warning));
-  warn_of_damage(*plan);
-  if (plan->model->body.is_listed())
-    if (std::string warning = coordination_warning(plan->model->body); !warning.empty())
+  warn_of_damage(plan);
+  if (plan.model->body.is_listed())
+    if (std::string warning = coordination_warning(plan.model->body); !warning.empty())
       warnings.push_back(std::move(warning));
   Faults faults;
-  plan->asked_fields = asked_fields(*plan->scene);
-  plan_stages(*plan, faults);
-  check_fields(*plan->model, faults);
-  check_file_names(*plan->scene, faults);
-  if (faults.empty()) check_precision(*plan, faults);
-  if (faults.empty()) check_resolution(*plan, faults);
-  if (faults.empty() && !plan->stages.empty()) warn_of_idle_loads(*plan);
-  try_outputs(*plan, faults);
+  plan.asked_fields = asked_fields(*plan.scene);
+  plan_stages(plan, faults);
+  check_fields(*plan.model, faults);
+  check_file_names(*plan.scene, faults);
+  if (faults.empty()) check_precision(plan, faults);
+  if (faults.empty()) check_resolution(plan, faults);
+  if (faults.empty() && !plan.stages.empty()) warn_of_idle_loads(plan);
+  try_outputs(plan, faults);
   faults.throw_if_any();
-  estimate_output(*plan);
-  set_threads(*plan, threads.of(plan->model->body.particles));
-  plan->left_out = left_out(*plan);
+  estimate_output(plan);
+  set_threads(plan, threads.of(plan.model->body.particles));
+  plan.left_out = left_out(plan);
+}
+
+}  // namespace
+
+std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, Threads threads, int ranks) {
+  const auto start = std::chrono::steady_clock::now();
+  auto plan = std::make_unique<Plan>();
+  plan->scene = std::move(scene);
+  plan->ranks = ranks;
+  try {
+    fill(*plan, threads);
+  } catch (const InputError& error) {
+    throw plan->scene->origins.with_places(error);
+  }
   plan->setup_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return plan;

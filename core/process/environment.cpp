@@ -12,10 +12,9 @@ namespace hyperlattice {
 
 namespace {
 
-/// Adds a fault for a value that is not a whole number; host/crash.cpp would use its default of 60
-/// s.
-void check_load_seconds(Faults& faults) {
-  constexpr const char* name = "HYPERLATTICE_LOAD_SECONDS";
+/// Adds a fault for a value that is not a whole number; the core would use its default. `what`:
+/// what the seconds limit.
+void check_seconds(const char* name, const char* what, Faults& faults) {
   const char* value = std::getenv(name);
   if (value == nullptr) return;
   const std::string_view text = value;
@@ -23,7 +22,7 @@ void check_load_seconds(Faults& faults) {
     unsetenv(name);
   } else if (text.find_first_not_of("0123456789") != text.npos) {
     faults.add(name, std::string(text),
-               "in the environment, whole seconds that a plugin may take to load; 0: no limit");
+               fmt::format("in the environment, whole seconds that {}; 0: no limit", what));
   }
 }
 
@@ -52,7 +51,8 @@ void check_environment() {
                fmt::format("in the environment, {}{}", fmt::join(values, ", "),
                            near.empty() ? "" : "; did you mean '" + near + "'?"));
   }
-  check_load_seconds(faults);
+  check_seconds("HYPERLATTICE_LOAD_SECONDS", "a plugin may take to load", faults);
+  check_seconds("HYPERLATTICE_COMPILE_SECONDS", "the compilation of a plugin may take", faults);
   faults.throw_if_any();
 }
 

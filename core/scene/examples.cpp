@@ -1,7 +1,7 @@
+#include <quantities/units.hpp>
 #include <scene/examples.hpp>
 #include <scene/expectation.hpp>
 #include <scene/option_reader.hpp>
-#include <scene/units.hpp>
 
 #include <nlohmann/json.hpp>
 

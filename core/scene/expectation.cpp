@@ -1,6 +1,6 @@
 #include <base/errors.hpp>
+#include <quantities/units.hpp>
 #include <scene/expectation.hpp>
-#include <scene/units.hpp>
 
 #include <spdlog/fmt/fmt.h>
 

@@ -46,8 +46,14 @@ bool inverted(const Region& region) {
 }  // namespace
 
 RegionReader::RegionReader(const Json& named, Regions& regions, Faults& faults,
-                           std::deque<std::string>& texts, std::filesystem::path folder)
-    : named_(named), regions_(regions), faults_(faults), texts_(texts), folder_(std::move(folder)) {
+                           std::deque<std::string>& texts, const Origins& origins,
+                           const Variables& variables)
+    : named_(named),
+      regions_(regions),
+      faults_(faults),
+      texts_(texts),
+      origins_(origins),
+      variables_(variables) {
   for (const auto& item : named_.items()) expressions_.emplace(item.key(), &item.value());
   if (const auto all = regions_.find("all")) ids_.emplace("all", *all);
 }

@@ -3,6 +3,8 @@
 
 #include <geometry/region.hpp>
 #include <scene/json.hpp>
+#include <scene/origins.hpp>
+#include <scene/variables.hpp>
 
 #include <deque>
 #include <filesystem>
@@ -25,12 +27,16 @@ inline constexpr SetOperation set_operations[] = {{"union", Region::Kind::set_un
 class RegionReader {
  public:
   /// `named` is the scene's "regions", read on demand because regions may refer to each other. A
-  /// function that returns null has added a fault, once. File names in regions are relative to
-  /// `folder`, or to the current folder if `folder` is empty.
+  /// function that returns null has added a fault, once. `origins` give the folder to which a file
+  /// name is relative; without any it is the current folder.
   RegionReader(const Json& named, Regions& regions, Faults& faults, std::deque<std::string>& texts,
-               std::filesystem::path folder = {});
+               const Origins& origins = {}, const Variables& variables = {});
 
-  const std::filesystem::path& folder() const { return folder_; }
+  /// Returns the folder to which file names in the value at a JSON pointer are relative.
+  std::filesystem::path folder_of(const std::string& pointer) const {
+    return origins_.folder_of(pointer);
+  }
+  const Variables& variables() const { return variables_; }
   /// Files that options have named so far; the key is the option's JSON pointer. Option readers
   /// share this map, since their file names are relative to the same folder.
   std::map<std::string, std::filesystem::path>& files() { return files_; }
@@ -72,7 +78,8 @@ class RegionReader {
   Regions& regions_;
   Faults& faults_;
   std::deque<std::string>& texts_;
-  std::filesystem::path folder_;
+  Origins origins_;
+  Variables variables_;
   std::map<std::string, std::filesystem::path> files_;
   std::map<std::string, std::shared_ptr<const Region>> done_;
   // JSON text with SI numbers, of the named regions read so far

@@ -45,6 +45,12 @@ std::unique_ptr<Scene> read_scene_text(std::string_view text, const std::filesys
   return read_scene_text(text, file, {}, catalogue);
 }
 
+std::unique_ptr<Scene> read_scene_document(const Document& document,
+                                           const std::filesystem::path& file, Host& host) {
+  HostCatalogue catalogue(host);
+  return read_scene_document(document, file, catalogue);
+}
+
 std::unique_ptr<Scene> read_scene_text(std::string_view text, Host& host) {
   return read_scene_text(text, std::filesystem::current_path() / "scene", host);
 }

@@ -5,17 +5,21 @@
 #include <geometry/cut_surface.hpp>
 #include <geometry/region.hpp>
 #include <host/host.hpp>
+#include <scene/origins.hpp>
 
 #include <hyperlattice/material.hpp>
 
 #include <deque>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace hyperlattice {
+
+struct Document;
 
 /// The validated options of one component, in an object of the plugin's type. Owns that object.
 using OptionsPointer = std::unique_ptr<void, void (*)(void*)>;
@@ -90,7 +94,10 @@ struct Scene {
   Regions regions;
   std::vector<Stage> stages;          ///< in pipeline order
   std::vector<InputFile> files;       ///< files named by options, one entry per option
-  std::vector<std::string> warnings;  ///< about options given by former names
+  std::vector<std::string> warnings;  ///< about former names of options, and unused variables
+  /// values, SI, of the variables that are numbers or quantities
+  std::map<std::string, double> variables;
+  Origins origins;  ///< the files that the parts of the scene come from
   /// text of scene.resolved.json: all defaults filled in, SI units; running it gives the same bits
   std::string resolved;
   /// storage of text options; the addresses of entries do not change
@@ -105,9 +112,9 @@ struct Scene {
   std::string resolved_in(const std::filesystem::path& folder) const;
 };
 
-/// Reads, patches (`--set /pointer=value`) and validates a scene, and loads the plugins that it
-/// names. Throws InputError with all faults found, and OutsideError if an existing file cannot be
-/// read or if a library that the host refuses is the only fault.
+/// Reads, patches (`--set`, see apply_settings()) and validates a scene, and loads the plugins that
+/// it names. Throws InputError with all faults found, and OutsideError if an existing file cannot
+/// be read or if a library that the host refuses is the only fault.
 std::unique_ptr<Scene> read_scene(const std::filesystem::path& file,
                                   const std::vector<std::string>& settings, Host& host);
 
@@ -115,6 +122,10 @@ std::unique_ptr<Scene> read_scene(const std::filesystem::path& file,
 /// is not opened.
 std::unique_ptr<Scene> read_scene_text(std::string_view text, const std::filesystem::path& file,
                                        Host& host);
+
+/// Reads a document that was parsed and merged before.
+std::unique_ptr<Scene> read_scene_document(const Document& document,
+                                           const std::filesystem::path& file, Host& host);
 
 /// Reads a scene that has no file. Files and plugins that it names are relative to the current
 /// folder.

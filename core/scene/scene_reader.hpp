@@ -28,4 +28,8 @@ std::unique_ptr<Scene> read_scene_text(std::string_view text, const std::filesys
                                        const std::vector<std::string>& settings,
                                        Catalogue& catalogue);
 
+/// Reads a document that was parsed and merged before.
+std::unique_ptr<Scene> read_scene_document(const Document& document,
+                                           const std::filesystem::path& file, Catalogue& catalogue);
+
 }  // namespace hyperlattice

@@ -30,10 +30,13 @@ Json bounded(const Option& option, const char* type) {
   return number;
 }
 
-/// Returns the schema of a plain SI number or a text with a unit.
+/// Returns the schema of a plain SI number, a text with a unit, or a text with a variable.
 Json quantity(const Option& option) {
-  return {{"anyOf", {bounded(option, "number"), reference("quantity")}}};
+  return {{"anyOf", {bounded(option, "number"), reference("quantity"), reference("variable")}}};
 }
+
+/// Returns the schema of a value or a text with a variable, whose value the schema cannot see.
+Json or_variable(Json value) { return {{"anyOf", {std::move(value), reference("variable")}}}; }
 
 Json choices(const Option& option) {
   Json own{{"enum", std::vector<std::string>(option.choices.begin(), option.choices.end())}};
@@ -79,7 +82,7 @@ Json value_schema(const Option& option) {
 }
 
 Json option_schema(const Option& option) {
-  Json value = value_schema(option);
+  Json value = or_variable(value_schema(option));
   if (!option.word.empty()) value = {{"anyOf", {std::move(value), {{"const", option.word}}}}};
   value["description"] = option.unit.empty() ? std::string(option.help)
                                              : fmt::format("{} [{}]", option.help, option.unit);
@@ -129,7 +132,7 @@ Json object_schema(std::string_view description) {
 
 Json component_schema(const ComponentInfo& info) {
   Json object = object_schema(info.summary);
-  object["properties"]["type"] = {{"const", info.name}};
+  object["properties"]["type"] = or_variable({{"const", info.name}});
   object["required"].push_back("type");
   declare(object, info.options, info.old_names);
   const OptionSet& common = common_options(info.family);
@@ -140,7 +143,7 @@ Json component_schema(const ComponentInfo& info) {
   }
   if (info.family == Family::lattices)
     object["properties"][std::string(cuts_key)] = {
-        {"type", "array"}, {"description", cuts_help}, {"items", reference("cut")}};
+        {"type", "array"}, {"description", cuts_help}, {"items", or_variable(reference("cut"))}};
   return object;
 }
 
@@ -150,13 +153,13 @@ Json one_of(const std::vector<std::string>& types) {
   if (types.empty()) return false;
   Json schema{{"type", "object"},
               {"required", {"type"}},
-              {"properties", {{"type", {{"enum", types}}}}},
+              {"properties", {{"type", or_variable({{"enum", types}})}}},
               {"allOf", Json::array()}};
   for (const std::string& type : types)
     schema["allOf"].push_back(
         {{"if", {{"properties", {{"type", {{"const", type}}}}}, {"required", {"type"}}}},
          {"then", reference(type)}});
-  return schema;
+  return or_variable(std::move(schema));
 }
 
 /// Returns the schema of a region expression: a name, a primitive, or a set of expressions of the
@@ -205,11 +208,15 @@ Json cut() {
 }  // namespace
 
 std::string scene_schema(const std::vector<const Component*>& components) {
-  std::vector<std::string> of_family[std::size(family_names)], stages, later;
+  std::vector<std::string> of_family[std::size(family_names)], later;
   Json definitions{{"quantity",
                     {{"type", "string"},
                      {"description", "a number with a unit, such as \"1 mm\""},
                      {"pattern", number_with_unit}}},
+                   {"variable",
+                    {{"type", "string"},
+                     {"description", "a text with \"${name}\", a name of \"variables\""},
+                     {"pattern", R"(\$\{)"}}},
                    {"region", expression("region", {{"type", "string"}})},
                    {"solid", expression("solid", {{"type", "string"},
                                                   {"not", {{"enum", built_in_region_names()}}}})}};
@@ -233,14 +240,23 @@ std::string scene_schema(const std::vector<const Component*>& components) {
     Json has{
         {"properties", {{"type", {{"pattern", fmt::format(R"(^{}\.)", family_name(family))}}}}},
         {"required", {"type"}}};
-    return Json{{"contains", std::move(has)}};
+    return Json{{"contains", or_variable(std::move(has))}};
   };
+  std::vector<std::string> stages = types(Family::lattices);
+  stages.insert(stages.end(), later.begin(), later.end());
+  // Included files may hold any stages before those of the scene.
   const Json pipeline{{"type", "array"},
                       {"description", "the lattice first, then the other stages in their order"},
-                      {"prefixItems", Json::array({one_of(types(Family::lattices))})},
-                      {"items", one_of(later)},
-                      {"minItems", 1},
-                      {"allOf", {holds(Family::materials), holds(Family::solvers)}}};
+                      {"items", one_of(stages)}};
+  const Json whole{{"required", {"format", "pipeline"}},
+                   {"properties",
+                    {{"pipeline",
+                      {{"prefixItems", Json::array({one_of(types(Family::lattices))})},
+                       {"items", one_of(later)},
+                       {"minItems", 1},
+                       {"allOf", {holds(Family::materials), holds(Family::solvers)}}}}}}};
+  const Json file_names{
+      {"anyOf", {{{"type", "string"}}, {{"type", "array"}, {"items", {{"type", "string"}}}}}}};
   Json named{{"type", "object"},
              {"propertyNames", {{"not", {{"enum", built_in_region_names()}}}}},
              {"additionalProperties", reference("region")}};
@@ -250,6 +266,9 @@ std::string scene_schema(const std::vector<const Component*>& components) {
       {"type", "object"},
       {"properties",
        {{"$schema", {{"type", "string"}}},
+        {"include", file_names},
+        {"variables",
+         {{"type", "object"}, {"propertyNames", {{"pattern", "^[A-Za-z_][A-Za-z0-9_]*$"}}}}},
         {"format", {{"const", "hyperlattice/1"}}},
         {"title", {{"type", "string"}}},
         {"plugins", {{"type", "array"}, {"items", {{"type", "string"}}}}},
@@ -265,7 +284,8 @@ std::string scene_schema(const std::vector<const Component*>& components) {
          {{"type", "boolean"}, {"description", allow_unstable_help}, {"default", false}}},
         {"regions", std::move(named)},
         {"pipeline", pipeline}}},
-      {"required", {"format", "pipeline"}},
+      {"if", {{"not", {{"required", {"include"}}}}}},
+      {"then", whole},
       {"additionalProperties", false},
       {"$defs", std::move(definitions)}};
   return scene.dump(2);

@@ -1,4 +1,5 @@
 #include <scene/settings.hpp>
+#include <scene/stage_names.hpp>
 
 #include <spdlog/fmt/fmt.h>
 #include <nlohmann/json.hpp>
@@ -95,19 +96,31 @@ std::string set_value(Json& document, std::string_view pointer, const Json& valu
 void apply_settings(Json& scene, const std::vector<std::string>& settings, Faults& faults) {
   for (const std::string& setting : settings) {
     const auto equals = setting.find('=');
-    const auto pointer = std::string_view(setting).substr(0, equals);
-    if (equals == std::string::npos || !keys_of(pointer)) {
+    const std::string place = setting.substr(0, equals);
+    const auto slash = place.find('/');
+    if (equals == std::string::npos || slash == std::string::npos ||
+        !keys_of(place.substr(slash))) {
       faults.add("--set", shown(setting),
-                 "/pointer=value with a JSON pointer such as /pipeline/0/spacing=0.001");
+                 "/pointer=value with a JSON pointer such as /pipeline/0/spacing=0.001, or "
+                 "name/option=value with the name or the type of a stage");
       continue;
+    }
+    std::string pointer = place;
+    if (slash > 0) {
+      const NamedStage stage = find_stage(scene, place.substr(0, slash));
+      if (stage.pointer.empty()) {
+        faults.add("--set " + place, "", stage.expected);
+        continue;
+      }
+      pointer = stage.pointer + place.substr(slash);
     }
     const Json value = value_of(setting.substr(equals + 1));
     if (value.is_string() && !is_utf8(value.get_ref<const std::string&>())) {
-      faults.add("--set " + setting.substr(0, equals), shown(value), "text in UTF-8");
+      faults.add("--set " + place, shown(value), "text in UTF-8");
       continue;
     }
     if (const std::string expected = set_value(scene, pointer, value); !expected.empty())
-      faults.add("--set " + setting.substr(0, equals), shown(value), expected);
+      faults.add("--set " + place, shown(value), expected);
   }
 }
 

@@ -1,4 +1,5 @@
-// `--set /pointer=value`: changes of a scene by the command line, before validation.
+// `--set /pointer=value`, `--set name/option=value`: changes of a scene by the command line, before
+// validation.
 #pragma once
 
 #include <scene/json.hpp>
@@ -14,8 +15,8 @@ Json value_of(const std::string& text);
 /// an empty text after success, otherwise what was expected.
 std::string set_value(Json& document, std::string_view pointer, const Json& value);
 
-/// Applies settings "/pointer=value" with set_value(). The part after the first "=" is read by
-/// value_of().
+/// Applies settings "/pointer=value", or "name/option=value" with the stage of find_stage(), with
+/// set_value(). The part after the first "=" is read by value_of().
 void apply_settings(Json& scene, const std::vector<std::string>& settings, Faults& faults);
 
 }  // namespace hyperlattice

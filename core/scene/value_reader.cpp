@@ -1,6 +1,6 @@
 #include <base/input_file.hpp>
+#include <quantities/units.hpp>
 #include <scene/expectation.hpp>
-#include <scene/units.hpp>
 #include <scene/value_reader.hpp>
 
 #include <spdlog/fmt/fmt.h>
@@ -12,15 +12,31 @@ namespace hyperlattice {
 
 namespace {
 
-/// Reads a number, or a text with a unit, in SI units.
+/// Reads arithmetic with variables as a quantity of the dimension of `unit`.
+Quantity read_arithmetic(const std::string& text, std::string_view unit,
+                         const Variables& variables) {
+  const QuantityValue found = variables.evaluate(text);
+  if (!found.problem.empty()) return {0, found.problem};
+  if (same(found.powers, read_any_quantity(fmt::format("1 {}", unit)).powers))
+    return {found.value, ""};
+  return {0, fmt::format("it is {}{}", dimension_name(found.powers),
+                         is_plain_number(found.powers) ? "; give its variables units" : "")};
+}
+
+/// Reads a number, a text with a unit, or arithmetic with variables, in SI units.
 bool read_number(const Option& option, const Json& given, const std::string& pointer,
-                 const std::string& expected, Faults& faults, double& number) {
+                 const std::string& expected, Reading reading, double& number) {
   const auto wrong = [&](const std::string& why) {
-    faults.add(pointer, shown(given),
-               why.empty() ? expected : fmt::format("{} ({})", expected, why));
+    reading.faults.add(pointer, shown(given),
+                       why.empty() ? expected : fmt::format("{} ({})", expected, why));
     return false;
   };
-  if (given.is_string()) {
+  if (given.is_string() && has_variable(given.get_ref<const std::string&>())) {
+    const Quantity quantity = read_arithmetic(given.get_ref<const std::string&>(), option.unit,
+                                              reading.regions.variables());
+    if (!quantity.problem.empty()) return wrong(quantity.problem);
+    number = quantity.value;
+  } else if (given.is_string()) {
     const Quantity quantity = read_quantity(given.get_ref<const std::string&>(), option.unit);
     if (!quantity.problem.empty()) return wrong(quantity.problem);
     number = quantity.value;
@@ -30,6 +46,12 @@ bool read_number(const Option& option, const Json& given, const std::string& poi
     return wrong("");
   }
   return in_range(option, number) || wrong("");
+}
+
+/// Returns whether a text has a variable that is unknown or faulty, which was reported.
+bool is_faulty(const Json& given, const Reading& reading) {
+  return given.is_string() &&
+         reading.regions.variables().is_faulty(given.get_ref<const std::string&>());
 }
 
 bool read_integer(const Json& given, std::int64_t& integer) {
@@ -82,11 +104,12 @@ std::int64_t choice_of(const Option& option, const Json& given) {
 }
 
 bool read_numbers(const Option& option, const Json& given, const std::string& pointer,
-                  Faults& faults, ReadValue& value, Json& resolved) {
+                  Reading reading, ReadValue& value, Json& resolved) {
   bool good = true;
   for (std::size_t n = 0; n < given.size(); ++n) {
     double number = 0;
-    good = read_number(option, given[n], member(pointer, n), entry_expectation(option), faults,
+    good = !is_faulty(given[n], reading) &&
+           read_number(option, given[n], member(pointer, n), entry_expectation(option), reading,
                        number) &&
            good;
     value.numbers.push_back(number);
@@ -96,11 +119,27 @@ bool read_numbers(const Option& option, const Json& given, const std::string& po
   return good;
 }
 
+/// Replaces the variables in a text. Returns false after a fault.
+bool fill_gaps(Json& text, const std::string& pointer, const Reading& reading) {
+  if (!text.is_string() || !has_variable(text.get_ref<const std::string&>())) return true;
+  std::string problem;
+  std::string filled = reading.regions.variables().fill(text.get<std::string>(), problem);
+  if (!problem.empty())
+    reading.faults.add(pointer, shown(text), "variables that are texts or numbers; " + problem);
+  text = std::move(filled);
+  return problem.empty();
+}
+
 bool read_texts(const Option& option, const Json& given, const std::string& pointer,
-                Reading reading, ReadValue& value) {
+                Reading reading, ReadValue& value, Json& resolved) {
   bool good = true;
   for (std::size_t n = 0; n < given.size(); ++n) {
-    const Json& entry = given[n];
+    Json entry = given[n];
+    if (!fill_gaps(entry, member(pointer, n), reading)) {
+      good = false;
+      continue;
+    }
+    resolved[n] = entry;
     if (!entry.is_string() || (!option.choices.empty() && choice_of(option, entry) < 0 &&
                                !is_field(option, entry, reading))) {
       reading.faults.add(member(pointer, n), shown(entry),
@@ -130,10 +169,22 @@ std::string nearest_name(const std::string& name, const Reading& reading) {
   return did_you_mean(name, candidates);
 }
 
+bool is_number(const Option& option) {
+  return option.kind == OptionKind::number || option.kind == OptionKind::integer;
+}
+
 }  // namespace
 
-bool read_value(const Option& option, const Json& given, const std::string& pointer,
+bool read_value(const Option& option, const Json& written, const std::string& pointer,
                 Reading reading, ReadValue& value, Json& resolved) {
+  Json filled;
+  const bool has_gaps = written.is_string() && has_variable(written.get_ref<const std::string&>());
+  if (has_gaps) {
+    if (is_faulty(written, reading)) return false;
+    filled = written;
+    if (!is_number(option) && !fill_gaps(filled, pointer, reading)) return false;
+  }
+  const Json& given = has_gaps ? filled : written;
   const auto wrong = [&](const std::string& more = "") {
     reading.faults.add(pointer, shown(given), expectation(option) + more);
     return false;
@@ -147,12 +198,17 @@ bool read_value(const Option& option, const Json& given, const std::string& poin
   }
   switch (option.kind) {
     case OptionKind::number:
-      if (!read_number(option, given, pointer, expectation(option), reading.faults, plain.number))
+      if (!read_number(option, given, pointer, expectation(option), reading, plain.number))
         return false;
       resolved = plain.number;
       return true;
     case OptionKind::integer:
-      if (!read_integer(given, plain.integer) ||
+      if (has_gaps) {
+        if (!read_number(option, given, pointer, expectation(option), reading, plain.number))
+          return false;
+        resolved = plain.number;
+      }
+      if (!read_integer(resolved, plain.integer) ||
           !in_range(option, static_cast<double>(plain.integer)))
         return wrong();
       resolved = plain.integer;
@@ -168,7 +224,7 @@ bool read_value(const Option& option, const Json& given, const std::string& poin
     case OptionKind::file: {
       if (!given.is_string()) return wrong();
       const std::filesystem::path file =
-          std::filesystem::absolute(reading.regions.folder() / given.get<std::string>())
+          std::filesystem::absolute(reading.regions.folder_of(pointer) / given.get<std::string>())
               .lexically_normal();
       if (const std::string fault = input_file_fault(file); !fault.empty())
         return wrong(fmt::format("; {}: {}", fault, file.string()));
@@ -190,16 +246,16 @@ bool read_value(const Option& option, const Json& given, const std::string& poin
       return true;
     case OptionKind::vector:
       if (!given.is_array() || given.size() != 3) return wrong();
-      if (!read_numbers(option, given, pointer, reading.faults, value, resolved)) return false;
+      if (!read_numbers(option, given, pointer, reading, value, resolved)) return false;
       if (!option.nonzero || value.numbers != std::vector<double>(3, 0)) return true;
       reading.faults.add(pointer, shown(given), "a vector that is not zero");
       return false;
     case OptionKind::numbers:
       if (!given.is_array()) return wrong();
-      return read_numbers(option, given, pointer, reading.faults, value, resolved);
+      return read_numbers(option, given, pointer, reading, value, resolved);
     case OptionKind::texts:
       if (!given.is_array()) return wrong();
-      return read_texts(option, given, pointer, reading, value);
+      return read_texts(option, given, pointer, reading, value, resolved);
     case OptionKind::shape:
       plain.shape = reading.regions.read_shape(given, pointer, resolved);
       return plain.shape != nullptr;

@@ -33,6 +33,9 @@ struct Contribution {
 struct ListedArrays {
   AlignedArray<std::uint32_t> first, neighbour;
   Numbers stiffness, alarm, records;
+  /// [record][component] velocities half a step before, m/s; empty unless a criterion asks for the
+  /// rate.
+  Numbers velocity;
   AlignedArray<double> shares;
 };
 

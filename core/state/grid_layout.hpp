@@ -24,6 +24,8 @@ class GridLayout final : public Layout {
                 bool cross) const override;
   std::uint64_t other_end(std::size_t block, std::uint32_t row, std::uint32_t neighbour,
                           std::int32_t site) const override;
+  double rate(const Block& block, std::uint32_t row, std::uint32_t neighbour,
+              std::int32_t site) const override;
   void for_springs(const Block& block,
                    const std::function<void(const SpringPlace&)>& visit) const override;
   void for_springs_beyond(const Block& block, std::span<const GrowthBounds> bounds,

@@ -49,6 +49,22 @@ std::uint64_t GridLayout::other_end(std::size_t block, std::uint32_t row, std::u
   return other.start + static_cast<std::uint64_t>(site + to.dx - other.begin);
 }
 
+double GridLayout::rate(const Block& block, std::uint32_t row, std::uint32_t neighbour,
+                        std::int32_t site) const {
+  const Row& of = block.rows[row];
+  const std::uint64_t a = of.start + static_cast<std::uint64_t>(site - of.begin),
+                      b = other_end(block.number, row, neighbour, site);
+  const Vec3 rest = model_.springs.neighbours[neighbour].rest;
+  double squared_length = 0, product = 0;
+  for (int c = 0; c < model_.degrees_of_freedom; ++c) {
+    const double apart =
+        (c < 3 ? rest[c] : 0) + (block.displacement[c][b] - block.displacement[c][a]);
+    squared_length += apart * apart;
+    product += apart * (block.velocity[c][b] - block.velocity[c][a]);
+  }
+  return product / std::sqrt(squared_length);
+}
+
 void GridLayout::for_springs(const Block& block,
                              const std::function<void(const SpringPlace&)>& visit) const {
   for (std::uint32_t r = 0; r < block.rows.size(); ++r) {

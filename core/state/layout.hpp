@@ -104,6 +104,10 @@ class Layout {
   /// same block. Throws std::logic_error for a listed body.
   virtual std::uint64_t other_end(std::size_t block, std::uint32_t row, std::uint32_t neighbour,
                                   std::int32_t site) const = 0;
+  /// Returns the rate of growth of a spring, m/s, from the velocities half a step before. The step
+  /// has not moved its ends yet. Only if a criterion asks for the rate.
+  virtual double rate(const Block& block, std::uint32_t row, std::uint32_t neighbour,
+                      std::int32_t site) const = 0;
   /// Visits all springs of a block, those of its ghost rows included. Of a listed body each spring
   /// is visited once from each of its ends in the block.
   virtual void for_springs(const Block& block,

@@ -182,8 +182,26 @@ Layout::Memory ListedLayout::memory(const Block& block, std::uint32_t, std::uint
 
 std::uint64_t ListedLayout::other_end(std::size_t, std::uint32_t, std::uint32_t,
                                       std::int32_t) const {
-  // The model refuses criteria that ask for velocities in a listed body.
-  throw std::logic_error("a listed body holds no velocities of others");
+  throw std::logic_error("an array of a listed body holds no particles of other blocks");
+}
+
+double ListedLayout::rate(const Block& block, std::uint32_t row, std::uint32_t slot,
+                          std::int32_t site) const {
+  const std::uint64_t a = block.rows[row].start + static_cast<std::uint64_t>(site),
+                      b = block.listed.neighbour[slot * width_ + a % width_];
+  const auto components = static_cast<std::uint64_t>(model_.degrees_of_freedom);
+  const auto difference = [&](std::size_t number) {
+    return block.listed.records[record_numbers * b + number] -
+           block.listed.records[record_numbers * a + number];
+  };
+  double squared_length = 0, product = 0;
+  for (std::size_t c = 0; c < components; ++c) {
+    const double apart = (c < 3 ? difference(c) : 0) + difference(record_moved + c);
+    squared_length += apart * apart;
+    product += apart * (block.listed.velocity[components * b + c] -
+                        block.listed.velocity[components * a + c]);
+  }
+  return product / std::sqrt(squared_length);
 }
 
 void ListedLayout::for_springs(const Block& block,
@@ -239,6 +257,10 @@ void ListedLayout::fill_records(Block& block) const {
   const Part& part = parts_[block.number];
   block.listed.records = Numbers(model_.springs.choice.precision,
                                  record_numbers * (block.layout->sites + part.ghosts.size()));
+  if (model_.springs.asks_rate)
+    block.listed.velocity = Numbers(model_.springs.choice.precision,
+                                    static_cast<std::size_t>(model_.degrees_of_freedom) *
+                                        (block.layout->sites + part.ghosts.size()));
   const std::vector<Vec3>& positions = model_.body.listed.positions;
   // The same for all blocks; positions relative to it keep their precision in floats.
   const Vec3 origin = positions[positions.size() / 2];
@@ -310,6 +332,22 @@ void ListedLayout::exchange(const std::vector<Block>& all, Block& block) const {
                                all[owner].displacement[c][ghost - parts_[owner].first]);
     record += record_numbers;
   }
+  if (model_.springs.asks_rate) exchange_velocities(all, block);
+}
+
+void ListedLayout::exchange_velocities(const std::vector<Block>& all, Block& block) const {
+  const Part& part = parts_[block.number];
+  const auto components = static_cast<std::size_t>(model_.degrees_of_freedom);
+  const auto copy = [&](const Block& from, std::uint64_t place, std::uint64_t record) {
+    for (std::size_t c = 0; c < components; ++c)
+      block.listed.velocity.set(components * record + c, from.velocity[c][place]);
+  };
+  for (std::uint64_t place = 0; place < part.last - part.first; ++place) copy(block, place, place);
+  std::size_t record = block.layout->sites, owner = 0;
+  for (const Particle ghost : part.ghosts) {
+    while (ghost >= parts_[owner].last) ++owner;
+    copy(all[owner], ghost - parts_[owner].first, record++);
+  }
 }
 
 void ListedLayout::describe(const Block& block, KernelRequest& request) const {
@@ -328,7 +366,9 @@ void ListedLayout::describe(const Block& block, KernelRequest& request) const {
 double ListedLayout::state_bytes() const {
   const double number = model_.springs.choice.precision == Precision::floats ? sizeof(float)
                                                                              : sizeof(double),
-               record = record_numbers * number;
+               record =
+                   (record_numbers + (model_.springs.asks_rate ? model_.degrees_of_freedom : 0)) *
+                   number;
   const double state = 2.0 * model_.degrees_of_freedom * number + record +
                        (model_.body.listed.shares.empty() ? 0.0 : double{sizeof(double)}) +
                        double{sizeof(std::uint16_t)} + (model_.kinds.material_of.empty() ? 0 : 1);

@@ -24,6 +24,8 @@ class ListedLayout final : public Layout {
                 bool cross) const override;
   std::uint64_t other_end(std::size_t block, std::uint32_t row, std::uint32_t neighbour,
                           std::int32_t site) const override;
+  double rate(const Block& block, std::uint32_t row, std::uint32_t neighbour,
+              std::int32_t site) const override;
   void for_springs(const Block& block,
                    const std::function<void(const SpringPlace&)>& visit) const override;
   void for_springs_beyond(const Block& block, std::span<const GrowthBounds> bounds,
@@ -37,6 +39,9 @@ class ListedLayout final : public Layout {
   std::size_t scratch_numbers() const override;
 
  private:
+  /// Copies the velocities of the block's particles and ghosts, before any of them changes.
+  void exchange_velocities(const std::vector<Block>& all, Block& block) const;
+
   static constexpr std::uint64_t row_length = Listed::stretch;  ///< particles
 
   const std::uint64_t width_;  ///< particles in a pack, one a lane

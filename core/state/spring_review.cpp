@@ -97,7 +97,10 @@ void SpringReview::ask(Block& block, const AlarmRow& alarm, const Material::Crit
   const auto& functions = criterion.stage->functions<FailureFunctions>();
   const std::size_t size = asked.size, rates = functions.asks_rate ? size : 0,
                     ends = functions.asks_ends ? size : 0;
-  for (std::size_t n = 0; n < rates; ++n) asked.rate[n] = rate_of(block, alarm, asked.number[n]);
+  for (std::size_t n = 0; n < rates; ++n) {
+    const std::int32_t site = alarm.sites[asked.number[n]];
+    asked.rate[n] = blocks_.layout().rate(block, alarm.row, alarm.neighbour, site);
+  }
   for (std::size_t n = 0; n < ends; ++n) {
     const SpringEnds spring =
         blocks_.layout().spring(block, alarm.row, alarm.neighbour, alarm.sites[asked.number[n]]);
@@ -129,24 +132,6 @@ void SpringReview::ask(Block& block, const AlarmRow& alarm, const Material::Crit
     if (numbers > 0) std::copy_n(&asked.memory[n * numbers], numbers, asked.kept[n]->begin());
   }
   asked.size = 0;
-}
-
-/// Returns the rate of growth of a spring, m/s, from the velocities half a step before. The step
-/// has not moved its ends yet.
-double SpringReview::rate_of(const Block& block, const AlarmRow& alarm, std::size_t n) const {
-  const Row& row = block.rows[alarm.row];
-  const std::uint64_t a = row.start + static_cast<std::uint64_t>(alarm.sites[n] - row.begin);
-  const std::uint64_t b =
-      blocks_.layout().other_end(block.number, alarm.row, alarm.neighbour, alarm.sites[n]);
-  const Vec3 rest = model_.springs.neighbours[alarm.neighbour].rest;
-  double squared_length = 0, product = 0;
-  for (int c = 0; c < model_.degrees_of_freedom; ++c) {
-    const double apart =
-        (c < 3 ? rest[c] : 0) + (block.displacement[c][b] - block.displacement[c][a]);
-    squared_length += apart * apart;
-    product += apart * (block.velocity[c][b] - block.velocity[c][a]);
-  }
-  return product / std::sqrt(squared_length);
 }
 
 }  // namespace hyperlattice

@@ -30,7 +30,6 @@ class SpringReview {
            const SpringFacts& facts, std::size_t first, std::span<const double> elongation) const;
   void ask(Block& block, const AlarmRow& alarm, const Material::Criterion& criterion,
            const SpringFacts& facts, Asked& asked) const;
-  double rate_of(const Block& block, const AlarmRow& alarm, std::size_t n) const;
 
   const BlockSet& blocks_;
   const Model& model_;

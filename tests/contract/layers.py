@@ -10,7 +10,8 @@ Argument: the project's folder.
   links them.
 - A tool under apps includes rooms, itself, and the tools that it links. No other part includes
   apps.
-- A component's folder includes itself, the SDK and the kernels, never another component.
+- A component's folder includes itself, the SDK and the kernels, never another component; the room
+  quantities too, if it links that room for its expressions.
 - A part that includes a library of core also links it: its CMakeLists.txt names
   hyperlattice_<library>.
 """
@@ -122,7 +123,9 @@ for name, linked in tools.items():
     check_names(source / "apps" / name)
     check_includes(source / "apps" / name, f"the tool {name}", {*rooms, name, *linked}, [kernels, sdk])
 for name, folder in {**components, **starters}.items():
-    check_includes(folder, name, set(), [kernels, sdk])
+    # Components with an expression as an option link the room of expressions.
+    quantities = {"quantities"} if "hyperlattice_quantities" in recipe_of(folder) else set()
+    check_includes(folder, name, quantities, [kernels, sdk])
 
 print("\n".join(breaches) if breaches else f"{len(rooms)} rooms, {len(tools)} tools, {len(components)} components: each knows what it may")
 sys.exit(1 if breaches else 0)

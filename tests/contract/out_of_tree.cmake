@@ -45,4 +45,10 @@ foreach(type failures.tearing surfaces.leaning materials.wearing_out lattices.de
   math(EXPR seconds "${end} - ${start}")
   message("${type}: ${seconds} s from --new to its passed tests")
 endforeach()
+
+# A plugin that is one source file, compiled by the moved program with the moved headers.
+set(ENV{XDG_CACHE_HOME} ${folder}/cache)
+set(ENV{CXX} ${COMPILER})
+must_work(${folder}/moved/bin/hyperlattice plugins --new failures.alone --out ${folder}/alone.cpp)
+must_work(${folder}/moved/bin/hyperlattice plugins --test failures.alone --plugin-path ${folder}/alone.cpp)
 file(REMOVE_RECURSE ${folder})

@@ -43,6 +43,30 @@ TEST_F(StudyCommand, GivesRowsOrdersAndTheCheapestSetting) {
   EXPECT_NE(contents(out() + "/study.svg").find("Swinging pair"), std::string::npos);
 }
 
+TEST_F(StudyCommand, VariesVariablesOfASceneWithIncludedFiles) {
+  json file = true_swinging_pair();
+  json included = file["scene"], scene{{"include", "parts/pair.json"}};
+  included["pipeline"][4]["time_step"] = "${step} * 2";
+  included["variables"] = {{"step", "1 us"}};
+  fs::create_directories(folder_.file("parts"));
+  std::ofstream(folder_.file("parts/pair.json")) << included.dump();
+  std::ofstream(folder_.file("scene.json")) << scene.dump();
+  file["$schema"] = "study.schema.json";
+  file["scene"] = "scene.json";
+  file["vary"]["step"] = {{"/variables/step", {"0.1 us", "0.05 us", "0.025 us"}}};
+  const Result result = study(file, {"--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json found = json::parse(result.out);
+  EXPECT_NEAR(found["rows"][0]["size"], 0.1e-6, 1e-18);
+  for (const json& order : found["orders"]) EXPECT_NEAR(order["order"], 2, 0.05);
+
+  fs::remove_all(out());
+  file["vary"]["step"] = {{"/variables/stp", {"0.1 us", "0.05 us"}}};
+  expect_refused(file, {"variables/stp (run step-0.1us", "variables/stp (run step-0.05us"});
+  file["$schema"] = 1;
+  EXPECT_NE(study(file).err.find("/$schema: 1: expected"), std::string::npos);
+}
+
 TEST_F(StudyCommand, TheCheapestSettingDoesForAllCases) {
   json file = true_swinging_pair();
   file["cases"] = {"stiffness"};

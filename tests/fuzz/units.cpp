@@ -1,7 +1,7 @@
 // Quantities with units. The first byte chooses the unit of the option.
 #include "target.hpp"
 
-#include <scene/units.hpp>
+#include <quantities/units.hpp>
 
 #include <array>
 #include <cmath>

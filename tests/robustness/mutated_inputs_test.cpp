@@ -4,7 +4,7 @@
 #include <base/errors.hpp>
 #include <geometry/triangle_mesh.hpp>
 #include <geometry/voxel_image.hpp>
-#include <scene/units.hpp>
+#include <quantities/units.hpp>
 
 #include <hyperlattice/tables.hpp>
 

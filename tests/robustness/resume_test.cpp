@@ -262,6 +262,23 @@ TEST_F(ResumeFaults, AnotherScene) {
   EXPECT_EQ(contents(out + "/checkpoint.bin"), before);
 }
 
+TEST_F(ResumeFaults, IncludedFilesArePartOfTheScene) {
+  const std::string parts = folder.file("parts.json"), whole = contents(file);
+  nlohmann::json changed = nlohmann::json::parse(whole);
+  changed["pipeline"][1]["young"] = 2e10;
+  std::ofstream(file) << R"({"include": "parts.json"})";
+  std::ofstream(parts) << changed.dump();
+  EXPECT_EQ(resume().exit_code, 2);
+  std::ofstream(parts) << whole;
+  Launch launch;
+  launch.meanwhile = [](pid_t child) {
+    std::this_thread::sleep_for(std::chrono::seconds(2));
+    kill(child, SIGINT);
+  };
+  const Result result = run_program({"run", file, "--out", out, "--resume"}, launch);
+  EXPECT_EQ(result.exit_code, 130) << result.err;
+}
+
 /// All files of a folder with their bytes.
 std::map<std::string, std::string> all_of(const std::string& folder) {
   std::map<std::string, std::string> files;

@@ -116,10 +116,10 @@ TEST_F(Surroundings, ThreadsAreThoseThatItMayUse) {
 }
 
 TEST_F(Surroundings, AnOddEnvironmentIsRefusedOrChangesNothing) {
-  for (const char* bad :
-       {"OMP_NUM_THREADS=many", "OMP_NUM_THREADS=0", "HYPERLATTICE_INSTRUCTIONS=garbage",
-        "HYPERLATTICE_SPRINGS=inexact", "HYPERLATTICE_LOAD_SECONDS=abc",
-        "HYPERLATTICE_LOAD_SECONDS=-1", "HYPERLATTICE_PROGRESS=xml"}) {
+  for (const char* bad : {"OMP_NUM_THREADS=many", "OMP_NUM_THREADS=0",
+                          "HYPERLATTICE_INSTRUCTIONS=garbage", "HYPERLATTICE_SPRINGS=inexact",
+                          "HYPERLATTICE_LOAD_SECONDS=abc", "HYPERLATTICE_LOAD_SECONDS=-1",
+                          "HYPERLATTICE_COMPILE_SECONDS=1.5", "HYPERLATTICE_PROGRESS=xml"}) {
     const Result result = run({}, {bad});
     EXPECT_EQ(result.exit_code, 2) << bad;
     EXPECT_NE(result.err.find(std::string(bad).substr(0, std::string(bad).find('='))),

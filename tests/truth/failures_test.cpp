@@ -151,10 +151,34 @@ TEST(Failures, RateHoldsMoreWhatIsPulledFaster) {
     }
     std::printf("pulled by %g per second: %zu springs break\n", pull, expected);
   }
-  const ListFiles files(3, 3, 3);
+}
+
+TEST(Failures, RateCountsInListsToo) {
+  const ListFiles files(5, 4, 6);
   const Keys law =
       Keys{{"membrane", "none"}} + failing("rate", {{"limit", 0.006}, {"reference", 100}});
-  EXPECT_THROW(plan_of(listed_scene(files.lattice(), law)), InputError);
+  const auto plan = plan_of(listed_scene(files.lattice(), law));
+  const Model& model = *plan->model;
+  std::set<std::size_t> counts;
+  for (const double pull : {-300.0, 0.0, 120.0, 700.0}) {  // strain rate, 1/s
+    std::size_t expected = 0;
+    for (const ListedSpring& spring : model.body.listed.springs) {
+      const Vec3 rest = model.body.position(spring.b) - model.body.position(spring.a),
+                 now = rest + Vec3{0.02 * rest.x, 0, 0};
+      const double rate = dot(now, {pull * rest.x, 0, 0}) / norm(now) / norm(rest);
+      if (norm(now) / norm(rest) - 1 > 0.006 * (1 + std::max(rate, 0.0) / 100)) ++expected;
+    }
+    counts.insert(expected);
+    for (const int threads : {1, 2, 5}) {
+      Simulation simulation(model, threads);
+      simulation.set_displacements(strained(model, 0.02, 0), {});
+      simulation.set_velocities(strained(model, pull, 0), {});
+      simulation.step(1e-3 * model.step_limit.time_step);
+      EXPECT_EQ(simulation.breakages().size(), expected)
+          << pull << " per second, " << threads << " threads";
+    }
+  }
+  EXPECT_GT(counts.size(), 1u);  // the rate makes a difference
 }
 
 TEST(Failures, WeibullScattersAsItSays) {

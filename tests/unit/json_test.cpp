@@ -125,7 +125,8 @@ TEST(Settings, BadPointersAreFaults) {
       set(text, {"/title/x=2"}),
       "--set /title/x: 2: expected an existing parent; /title is \"t\", which has no members");
   const std::string form =
-      ": expected /pointer=value with a JSON pointer such as /pipeline/0/spacing=0.001";
+      ": expected /pointer=value with a JSON pointer such as /pipeline/0/spacing=0.001, or "
+      "name/option=value with the name or the type of a stage";
   EXPECT_EQ(set(text, {"title=2"}), "--set: \"title=2\"" + form);
   EXPECT_EQ(set(text, {"/title"}), "--set: \"/title\"" + form);
   EXPECT_EQ(set(text, {"=2"}), "--set: \"=2\"" + form);

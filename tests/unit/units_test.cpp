@@ -1,5 +1,5 @@
 // Quantities with units: values against the definitions of the units, and refusals with a reason.
-#include <scene/units.hpp>
+#include <quantities/units.hpp>
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

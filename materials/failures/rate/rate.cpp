@@ -22,7 +22,7 @@ class Rate {
             "e = (|r| - |r0|) / |r0| > limit (1 + (max(de/dt, 0) / reference)^(1 / exponent))")
         .source("Cowper and Symonds 1957, for strains in place of stresses")
         .restrictions(
-            "structured lattices only; the rate is that of half a step before. The stiffness does "
+            "the rate is that of half a step before. The stiffness does "
             "not depend on the rate")
         .add<&Options::limit>("limit", "", "strain that breaks a base spring that is pulled slowly")
         .example("1e-3")

@@ -97,7 +97,7 @@ concept AsksMemory = requires(const T& failure, const SpringFacts& spring,
 ///
 /// A run calls breaks once a step for each spring above the alarm, and for no other spring. Below
 /// the alarm, where only the contract's test asks, it must say no. An exception ends the run. A
-/// criterion that needs the rate has static constexpr bool asks_rate = true; only grids provide it.
+/// criterion that needs the rate has static constexpr bool asks_rate = true.
 ///
 /// Memory is a struct of the class with at most max_failure_memory doubles and nothing else. The
 /// initializers of its members are the values with which each spring starts; without one, a number

@@ -9,6 +9,10 @@ hyperlattice::KernelSet hyperlattice_kernels_baseline(const hyperlattice::Kernel
 hyperlattice::KernelSet hyperlattice_kernels_avx2(const hyperlattice::KernelChoice& choice);
 hyperlattice::KernelSet hyperlattice_kernels_avx512(const hyperlattice::KernelChoice& choice);
 
+/// Names the law of a material that is one source file: HYPERLATTICE_LAW(MyLaw), outside of any
+/// namespace. The program then compiles the kernels of the law from the same file.
+#define HYPERLATTICE_LAW(Law) static_assert(sizeof(Law) > 0)
+
 namespace hyperlattice {
 
 /// Returns the kernels with the widest instructions that the processor can run, or with narrower

@@ -1,5 +1,5 @@
 #include <base/visible.hpp>
-#include <scene/unit_text.hpp>
+#include <quantities/unit_text.hpp>
 
 #include <spdlog/fmt/fmt.h>
 

@@ -1,7 +1,7 @@
 #include <base/errors.hpp>
 #include <process/room.hpp>
-#include <scene/unit_text.hpp>
-#include <scene/units.hpp>
+#include <quantities/unit_text.hpp>
+#include <quantities/units.hpp>
 
 #include <spdlog/fmt/fmt.h>
 #include <udunits2.h>
@@ -230,8 +230,17 @@ Dimension dimension_of(std::string_view unit) {
   return dimension_of(unit, database.parse(unit).get(), database);
 }
 
-Quantity read_quantity(std::string_view text, std::string_view unit) {
-  const auto problem = [](std::string sentence) { return Quantity{0, std::move(sentence)}; };
+namespace {
+
+/// The number of a quantity and its unit, as texts.
+struct Split {
+  std::string_view digits, unit;
+  std::string problem;
+};
+
+/// Divides "<number> <unit>"; the unit may be empty.
+Split split(std::string_view text) {
+  const auto problem = [](std::string sentence) { return Split{{}, {}, std::move(sentence)}; };
   std::string_view rest = trim_blanks(text);
   if (rest.size() > 1 && rest.front() == '+' && rest[1] != '-') rest.remove_prefix(1);
   double number = 0;
@@ -242,13 +251,66 @@ Quantity read_quantity(std::string_view text, std::string_view unit) {
   if (!std::isfinite(number)) return problem("it is not finite");
   const std::string_view digits = rest.substr(0, static_cast<std::size_t>(end - rest.data())),
                          given = trim_blanks(rest.substr(digits.size()));
-  if (given.empty())
-    return problem(unit.empty() ? "write a plain number without quotation marks"
-                                : "it has no unit; a plain number without quotation marks is SI");
-  if (given.front() == ',' || given.front() == '\'' || given.front() == '_')
+  if (given.starts_with(',') || given.starts_with('\'') || given.starts_with('_'))
     return problem(fmt::format(
         "{} stands in the number: it has a decimal point, and nothing between thousands",
         quoted(given.substr(0, 1))));
+  return {digits, given, ""};
+}
+
+/// Returns the powers of the base units in a definition such as "1e+06 kg.m-1.s-2".
+Powers powers_of(std::string_view definition) {
+  Powers powers{};
+  for (std::size_t n = 0; n < powers.size(); ++n) {
+    const std::string_view name = base_units[n];
+    for (std::size_t at = definition.find(name); at != std::string_view::npos;
+         at = definition.find(name, at + 1)) {
+      const auto is_letter = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+      };
+      const std::size_t end = at + name.size();
+      if ((at > 0 && is_letter(definition[at - 1])) ||
+          (end < definition.size() && is_letter(definition[end])))
+        continue;  // "m" in "mol"
+      int power = 1;
+      std::from_chars(definition.data() + end, definition.data() + definition.size(), power);
+      powers[n] = power;
+    }
+  }
+  return powers;
+}
+
+}  // namespace
+
+QuantityValue read_any_quantity(std::string_view text) {
+  const auto problem = [](std::string sentence) {
+    return QuantityValue{0, {}, std::move(sentence)};
+  };
+  const Split given = split(text);
+  if (!given.problem.empty()) return problem(given.problem);
+  Database& database = Database::instance();
+  const std::lock_guard hold(database.lock());
+  std::string why;
+  const Unit from = database.parse(given.unit, why);
+  if (!from) return problem(why);
+  const Powers powers = powers_of(definition(from.get()));
+  const Unit to = database.parse(unit_text_of(powers));
+  const Converter converter(to ? ut_get_converter(from.get(), to.get()) : nullptr, cv_free);
+  if (!converter) return problem(fmt::format("{} cannot be computed with", quoted(given.unit)));
+  const double value = convert(given.digits, converter.get());
+  if (!std::isfinite(value))
+    return problem("the number is too large or too small for double precision");
+  return {value, powers, ""};
+}
+
+Quantity read_quantity(std::string_view text, std::string_view unit) {
+  const auto problem = [](std::string sentence) { return Quantity{0, std::move(sentence)}; };
+  const Split split_text = split(text);
+  if (!split_text.problem.empty()) return problem(split_text.problem);
+  const std::string_view digits = split_text.digits, given = split_text.unit;
+  if (given.empty())
+    return problem(unit.empty() ? "write a plain number without quotation marks"
+                                : "it has no unit; a plain number without quotation marks is SI");
 
   Database& database = Database::instance();
   const std::lock_guard hold(database.lock());

@@ -2,6 +2,8 @@
 // that "1 mm" is the double nearest to 0.001.
 #pragma once
 
+#include <quantities/dimensions.hpp>
+
 #include <string>
 #include <string_view>
 
@@ -27,5 +29,9 @@ struct Quantity {
 /// it is empty, the text is a plain number or a percentage ("%"). Thread-safe. Throws OutsideError
 /// if the units database cannot be read.
 Quantity read_quantity(std::string_view text, std::string_view unit);
+
+/// Reads "<number> <unit>" as a quantity of any dimension. The text begins with the number; "%" is
+/// a hundredth. Thread-safe. Throws as read_quantity().
+QuantityValue read_any_quantity(std::string_view text);
 
 }  // namespace hyperlattice

@@ -1,0 +1,49 @@
+// Force, energy and tangent of a spring from expressions, and the list of the expressions of this
+// process, in which kernels find them by a number.
+#pragma once
+
+#include <quantities/compiled.hpp>
+#include <quantities/expression.hpp>
+
+#include <hyperlattice/law.hpp>
+
+#include <optional>
+
+namespace hyperlattice::spring_expression {
+
+/// The inputs of both expressions, in their order.
+enum Input : std::size_t {
+  elongation,
+  strain,
+  rate,
+  strain_rate,
+  stiffness,
+  rest_length,
+  input_count
+};
+
+/// Returns the names of these inputs with their dimensions.
+std::vector<ExpressionName> input_names();
+
+/// The expressions of a material.
+struct SpringForce {
+  Compiled force;                  ///< N
+  std::optional<Compiled> energy;  ///< J; without it, the energy is the integral of the force
+
+  double force_at(const SpringState& spring) const;
+  /// Returns the derivative of the force by the elongation, at a constant rate, N/m.
+  double tangent_at(const SpringState& spring) const;
+  /// Returns the derivative of the force by the rate, N s/m.
+  double viscosity_at(const SpringState& spring) const;
+  /// Returns the energy, J, at the spring's elongation less that at the elongation `from`.
+  double energy_since(const SpringState& spring, double from) const;
+};
+
+/// Keeps the expressions until the process ends, and returns their number. `text` names them: equal
+/// texts get one number. Throws std::runtime_error after 10,000 different ones.
+std::size_t keep(const std::string& text, const SpringForce& force);
+
+/// Returns the expressions of a number. Any thread may ask.
+const SpringForce& kept(double number);
+
+}  // namespace hyperlattice::spring_expression
