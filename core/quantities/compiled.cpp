@@ -6,7 +6,10 @@
 
 namespace hyperlattice {
 
-double value_of(const Instruction& instruction, double a, double b, double c) {
+namespace {
+
+/// Returns value_of(). Inlined, which a function that other libraries may replace cannot be.
+inline double result_of(const Instruction& instruction, double a, double b, double c) {
   switch (instruction.operation) {
     case Operation::constant:
     case Operation::input:
@@ -53,6 +56,12 @@ double value_of(const Instruction& instruction, double a, double b, double c) {
   return instruction.value;
 }
 
+}  // namespace
+
+double value_of(const Instruction& instruction, double a, double b, double c) {
+  return result_of(instruction, a, b, c);
+}
+
 double Compiled::operator()(std::span<const double> inputs) const {
   std::array<double, most_instructions> values;  // each is set before it is used
   for (std::size_t n = 0; n < code_.size(); ++n) {
@@ -62,7 +71,7 @@ double Compiled::operator()(std::span<const double> inputs) const {
     else if (one.operation == Operation::constant)
       values[n] = one.value;
     else
-      values[n] = value_of(one, values[one.a], values[one.b], values[one.c]);
+      values[n] = result_of(one, values[one.a], values[one.b], values[one.c]);
   }
   return values[code_.size() - 1];
 }

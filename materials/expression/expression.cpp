@@ -49,8 +49,9 @@ class ExpressionSolid {
             "alike: write it with `stiffness`. A force that gives energy back when it moves in a "
             "circle, such as one that falls with the rate, is refused where it shows at rest. The "
             "stable step is that of small strains: a law that stiffens needs a smaller time_step. "
-            "Springs are computed one by one, in doubles: steps take some thirty times as long as "
-            "with elastic springs")
+            "Springs are computed one by one, in doubles: steps take about ten times as long as "
+            "with "
+            "viscous springs, and about twenty times as long as with elastic ones")
         .add<&Options::force>("force", "", "force of a spring, N, positive if it pulls")
         .example("\"stiffness * elongation * (1 - 20 * strain + 400 * strain^2)\"")
         .add<&Options::energy>("energy", "",
