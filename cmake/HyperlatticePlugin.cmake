@@ -2,7 +2,8 @@
 # this file.
 #
 #   hyperlattice_add_plugin(loads.blast blast.cpp)
-#     builds the library `loads.blast.so`. The program finds it by the name of the type.
+#     builds the library `loads.blast.so`. The program finds it by the name of the type. In this
+#     project, PACKAGE mpi puts it into the Debian package hyperlattice-mpi.
 #
 #   hyperlattice_add_material(materials.elastic elastic.cpp LAW elastic.hpp Elastic)
 #     also builds the kernels of the law, once for each instruction set. The program chooses
@@ -22,14 +23,18 @@ macro(hyperlattice_kernel_flags)
 endmacro()
 
 function(hyperlattice_add_plugin type)
-  add_library(${type} MODULE ${ARGN})
+  cmake_parse_arguments(PLUGIN "" "PACKAGE" "" ${ARGN})
+  if(NOT PLUGIN_PACKAGE)
+    set(PLUGIN_PACKAGE plugins)
+  endif()
+  add_library(${type} MODULE ${PLUGIN_UNPARSED_ARGUMENTS})
   set_target_properties(${type} PROPERTIES PREFIX "" OUTPUT_NAME ${type} CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   target_compile_features(${type} PRIVATE cxx_std_20)
   target_link_libraries(${type} PRIVATE Hyperlattice::kernels)
   if(TARGET hyperlattice_flags) # plugins of this project
     target_link_libraries(${type} PRIVATE hyperlattice_flags)
     set_target_properties(${type} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/hyperlattice)
-    install(TARGETS ${type} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/hyperlattice COMPONENT plugins)
+    install(TARGETS ${type} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/hyperlattice COMPONENT ${PLUGIN_PACKAGE})
   endif()
 endfunction()
 

@@ -1,4 +1,4 @@
-# Debian packages of the installed tree, hyperlattice and python3-hyperlattice:
+# Debian packages of the installed tree, hyperlattice, hyperlattice-mpi and python3-hyperlattice:
 # `cpack --config build/release/CPackConfig.cmake`. dpkg-shlibdeps finds the packages that their
 # libraries need.
 set(CPACK_GENERATOR DEB)
@@ -23,12 +23,23 @@ if(TARGET hyperlattice_python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS python3-pandas)
   set(CPACK_COMPONENT_GROUP_PYTHON_DESCRIPTION "${PROJECT_DESCRIPTION}: the Python package")
 endif()
+if(TARGET engines.mpi)
+  # Of its own, so that the program needs no MPI.
+  set(CPACK_DEBIAN_MPI_PACKAGE_NAME hyperlattice-mpi)
+  set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS "hyperlattice (= ${PROJECT_VERSION})")
+  set(CPACK_DEBIAN_MPI_PACKAGE_RECOMMENDS openmpi-bin)
+  set(CPACK_COMPONENT_GROUP_MPI_DESCRIPTION "${PROJECT_DESCRIPTION}: several processes for one run")
+endif()
 set(CPACK_COMPONENT_GROUP_MAIN_DESCRIPTION "${PROJECT_DESCRIPTION}")
 include(CPack)
 cpack_add_component_group(main)
 cpack_add_component_group(python)
+cpack_add_component_group(mpi)
 cpack_add_component(Unspecified GROUP main)
 cpack_add_component(plugins GROUP main)
+if(TARGET engines.mpi)
+  cpack_add_component(mpi GROUP mpi)
+endif()
 if(TARGET hyperlattice_python)
   cpack_add_component(python GROUP python)
 endif()
