@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <new>
 
 namespace hyperlattice {
@@ -63,6 +64,23 @@ void prepare(RunFolder& folder, Plan& plan, const RunOptions& options, Ranks& ra
   else if (ranks.is_first())
     folder.begin(options.overwrite || resumed, output_names(plan), inputs_of(plan));
   if (!goes_on) resumed.reset();
+}
+
+/// Throws OutsideError in a rank whose program, plugins, instruction set or files differ from those
+/// of the first one.
+void must_be_alike(const Plan& plan, Ranks& ranks) {
+  if (ranks.is_alone()) return;
+  ranks.meet(Ranks::Meeting::start);
+  std::string text = identity_json(plan.identity).dump();
+  std::array<std::int64_t, 1> size{static_cast<std::int64_t>(text.size())};
+  ranks.spread(0, std::as_writable_bytes(std::span(size)));
+  text.resize(static_cast<std::size_t>(size[0]));
+  ranks.spread(0, std::as_writable_bytes(std::span(text)));
+  if (ranks.is_first()) return;
+  if (const std::string differs =
+          changes(read_identity(nlohmann::json::parse(text)), plan.identity);
+      !differs.empty())
+    throw OutsideError("this rank must do the same as rank 0, but " + differs);
 }
 
 /// Tells what is about to run.
@@ -208,6 +226,7 @@ int run(Plan& plan, const RunOptions& options, Ranks& ranks) {
   std::optional<Checkpoint> resumed;
   // All ranks read the checkpoint's head before the first one changes the folder.
   ranks.together([&] {
+    must_be_alike(plan, ranks);
     refuse_shortage(plan, options.directory);
     if (options.resume) must_be_resumable(options.directory);
     if (ranks.is_first())

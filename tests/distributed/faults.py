@@ -120,6 +120,16 @@ def alone_on_request(trial):
     expect(end.returncode == 0, end.stderr)
 
 
+def other_instructions(trial):
+    """A rank that would give other bits."""
+    words = trial.words("--quiet")
+    both = [*launch.command(2, *words), ":", "-n", "1", "-x", "HYPERLATTICE_INSTRUCTIONS=baseline", *words]
+    both[both.index("-n") + 1] = "1"
+    end = subprocess.run(both, capture_output=True, text=True, timeout=120, check=False, env=launch.environment())
+    expect_end(end, 4, "rank 1: this rank must do the same as rank 0, but the instruction set is baseline")
+    expect(not os.path.exists(trial.out), "something was written")
+
+
 def children(pid):
     with open(f"/proc/{pid}/task/{pid}/children", encoding="utf-8") as file:
         return [int(word) for word in file.read().split()]
@@ -185,7 +195,7 @@ def links_no_mpi(trial):
         expect(("libmpi" in needs) == path.endswith("engines.mpi.so"), f"{path}: {needs}")
 
 
-CASES = [wrong_scene, folder_in_use, unstable, one_law_fails, one_writer_fails, no_engine, alone_on_request, killed, interrupted, links_no_mpi]
+CASES = [wrong_scene, folder_in_use, unstable, one_law_fails, one_writer_fails, no_engine, alone_on_request, other_instructions, killed, interrupted, links_no_mpi]
 
 
 def main(program, name):
