@@ -32,7 +32,8 @@ Machine read_machine(const std::filesystem::path& file) {
   if (file.empty()) return {};
   Faults faults;
   Json object;
-  if (!parse_json(read_input_file(file, "--machine", "the path of a JSON file"), object, faults)) faults.throw_if_any();
+  if (!parse_json(read_input_file(file, "--machine", "the path of a JSON file"), object, faults))
+    faults.throw_if_any();
   const auto options = study::ObjectReader(faults).read<MachineFile>(object, "");
   faults.throw_if_any();
   return {options->latency, options->bandwidth, options->memory};
