@@ -97,6 +97,8 @@ std::string distribution_text(const Distribution& found) {
   const auto [least, most] =
       std::minmax_element(found.shares.begin(), found.shares.end(),
                           [](const auto& a, const auto& b) { return a.particles < b.particles; });
+  double sent = 0;
+  for (const RankShare& share : found.shares) sent = std::max(sent, share.sent_bytes);
   Page page;
   page.section("Ranks");
   page.line("ranks", fmt::format("{}, each with {} to {} particles", found.shares.size(),
@@ -105,11 +107,10 @@ std::string distribution_text(const Distribution& found) {
                                   "the run writes frames or checkpoints",
                                   bytes_text(most->state_bytes), bytes_text(found.first_bytes)));
   page.line("exchange",
-            fmt::format("{} from the rank with the most particles after each step{}",
-                        bytes_text(most->sent_bytes),
+            fmt::format("up to {} from a rank after each step{}", bytes_text(sent),
                         found.whole.empty() ? "" : ": the whole state, because " + found.whole));
   page.line("efficiency",
-            fmt::format("{:.0f} % by a model: {:.3g} s to compute a step, {:.3g} s "
+            fmt::format("{:.1f} % by a model: {:.3g} s to compute a step, {:.3g} s "
                         "to exchange",
                         100 * found.efficiency, found.step_seconds, found.exchange_seconds));
   if (found.short_of)
