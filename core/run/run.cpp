@@ -224,9 +224,9 @@ int run(Plan& plan, const RunOptions& options, Ranks& ranks) {
   const auto start = WallClock::now();
   std::optional<RunFolder> folder;
   std::optional<Checkpoint> resumed;
+  ranks.together([&] { must_be_alike(plan, ranks); });
   // All ranks read the checkpoint's head before the first one changes the folder.
   ranks.together([&] {
-    must_be_alike(plan, ranks);
     refuse_shortage(plan, options.directory);
     if (options.resume) must_be_resumable(options.directory);
     if (ranks.is_first())
