@@ -42,6 +42,7 @@ void Outputs::archive(Archive& archive) {
 }
 
 void Outputs::begin() {
+  if (outputs_.empty()) return;
   simulation_.gather_in_first();
   if (!ranks_.is_first()) return;
   const Ranks::Solo solo(ranks_);

@@ -8,7 +8,6 @@ namespace hyperlattice {
 Recorder::Recorder(const Plan& plan, Simulation& simulation, RunFolder& folder,
                    Stopwatch& stopwatch, Ranks& ranks)
     : simulation_(simulation),
-      ranks_(ranks),
       stopwatch_(stopwatch),
       guard_(*plan.model, simulation),
       cells_(*plan.model),
@@ -107,9 +106,6 @@ void Recorder::record() {
 }
 
 void Recorder::look_at_cells() {
-  simulation_.gather_in_first();
-  if (!ranks_.is_first()) return cells_.skip(simulation_.steps());
-  const Ranks::Solo solo(ranks_);
   stopwatch_.output([&] {
     if (cells_.look(simulation_)) spdlog::warn("{}", cells_.sentence());
   });

@@ -58,7 +58,6 @@ class Recorder {
   void look_at_cells();
 
   Simulation& simulation_;
-  Ranks& ranks_;
   Stopwatch& stopwatch_;
   Guard guard_;
   CellWatch cells_;

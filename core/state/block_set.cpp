@@ -80,9 +80,21 @@ BlockSet::BlockSet(const Model& model, int threads, Ranks& ranks, int blocks)
     const auto [block, place] = at(particle);
     for (int c = 0; c < 3; ++c) block->velocity[c].set(place, velocity[c]);
   }
+  if (ranks.count() > 1) find_first_of_ranks();
   if (is_whole()) return;
   ranks_.meet(Ranks::Meeting::state);
   halo_->exchange(blocks_, ranks_);
+}
+
+/// Blocks, and so ranks, follow each other as their particles do.
+void BlockSet::find_first_of_ranks() {
+  first_of_rank_.assign(static_cast<std::size_t>(ranks_.count()) + 1, model_.body.particles);
+  for_runs([&](const Block& block, std::uint64_t, Particle first, std::uint64_t) {
+    Particle& known = first_of_rank_[static_cast<std::size_t>(owners_[block.number])];
+    known = std::min(known, first);
+  });
+  for (std::size_t rank = first_of_rank_.size() - 1; rank > 0; --rank)  // some may have no block
+    first_of_rank_[rank - 1] = std::min(first_of_rank_[rank - 1], first_of_rank_[rank]);
 }
 
 /// Allocates a block. Of another rank's block little is touched before it is gathered, so that it
@@ -233,6 +245,24 @@ void BlockSet::gather(Whole where) {
 
 void BlockSet::gather() { gather(Whole::everywhere); }
 void BlockSet::gather_in_first() { gather(Whole::in_first); }
+
+void BlockSet::collect(Particle first, std::uint64_t count, std::size_t components,
+                       std::span<double> values) {
+  if (ranks_.is_alone() || whole_ != Whole::nowhere) return;
+  ranks_.meet(Ranks::Meeting::state);
+  for (int rank = 1; rank < ranks_.count(); ++rank) {
+    const auto r = static_cast<std::size_t>(rank);
+    const Particle from = std::max(first, first_of_rank_[r]),
+                   to = std::min(first + count, first_of_rank_[r + 1]);
+    if (from >= to) continue;
+    const auto bytes = std::as_writable_bytes(
+        values.subspan((from - first) * components, (to - from) * components));
+    const OutgoingBytes out{0, bytes};
+    const IncomingBytes in{rank, bytes};
+    if (ranks_.rank() == rank) ranks_.exchange({&out, 1}, {});
+    if (ranks_.is_first()) ranks_.exchange({}, {&in, 1});
+  }
+}
 
 void BlockSet::gather_results() {
   if (ranks_.is_alone()) return;

@@ -86,6 +86,10 @@ class BlockSet {
   void gather();
   /// Brings all blocks up to date in the first rank. All ranks must call it.
   void gather_in_first();
+  /// Copies numbers of `count` particles from `first` on to the first rank, each from the rank that
+  /// moves the particle. `values`: so many `components` of each particle.
+  void collect(Particle first, std::uint64_t count, std::size_t components,
+               std::span<double> values);
   /// Copies to every rank what the last evaluation found for rows and boundary particles.
   void gather_results();
   /// Meets the other ranks after each has moved its own blocks, and gets the rows of others that it
@@ -122,13 +126,15 @@ class BlockSet {
   void allocate(Block& block, std::size_t number);
   void fill(Block& block) const;
   void add_supports(Block& block) const;
+  void find_first_of_ranks();
 
   const Model& model_;
   std::unique_ptr<Layout> layout_;
   std::vector<Block> blocks_;
   mutable Team team_;  // reading the state in parallel does not change it
   Ranks& ranks_;
-  std::vector<int> owners_;  // rank of each block
+  std::vector<int> owners_;              // rank of each block
+  std::vector<Particle> first_of_rank_;  // and the number of particles; empty: there is one rank
   std::size_t first_mine_ = 0, last_mine_ = 0;
   std::optional<Halo> halo_;  // none: there are no other ranks
   bool keeps_whole_ = false;

@@ -50,11 +50,13 @@ void Simulation::set(const Quantity& quantity, const std::vector<double>& values
 }
 
 void Simulation::displacements(std::vector<double>& xyz) const { copy({false, 0, 3}, xyz); }
-void Simulation::displacements(std::vector<double>& xyz, Particle first,
-                               std::uint64_t count) const {
-  xyz.resize(3 * count);
-  gather();
-  copy({false, 0, 3}, first, count, xyz.data());
+bool Simulation::displacements_in_first(std::vector<double>& xyz, Particle first,
+                                        std::uint64_t count) const {
+  constexpr std::size_t components = 3;
+  xyz.resize(components * count);
+  copy({false, 0, components}, first, count, xyz.data());
+  state_->blocks.collect(first, count, components, xyz);
+  return state_->blocks.ranks().is_first();
 }
 
 void Simulation::velocities(std::vector<double>& xyz) const { copy({true, 0, 3}, xyz); }

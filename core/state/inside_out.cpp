@@ -159,9 +159,10 @@ void CellWatch::look_at_cells(const Simulation& simulation) {
            static_cast<double>(before[last + 2] - before[plane]) <= slab_particles)
       ++last;
     first_ = before[plane];
-    simulation.displacements(moved_, first_, before[last + 1] - first_);
+    const bool are_here =
+        simulation.displacements_in_first(moved_, first_, before[last + 1] - first_);
     for (; plane < last; ++plane)
-      for (std::int32_t j = body_.low.j; j < body_.high.j; ++j)
+      for (std::int32_t j = body_.low.j; are_here && j < body_.high.j; ++j)
         look_at_row(j, body_.low.k + static_cast<std::int32_t>(plane));
   }
 }

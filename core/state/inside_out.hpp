@@ -36,10 +36,8 @@ class CellWatch {
 
   /// Looks at the present state on one thread, in about the time of a step on one thread. Skips
   /// cells and particles at a broken spring. Returns whether this look found the first one inside
-  /// out.
+  /// out. All ranks call it; of a grid only the first one sees the cells.
   bool look(const Simulation& simulation);
-  /// Says that another rank has looked after this step.
-  void skip(std::uint64_t step) { seen_.last_looked = step, seen_.has_looked = 1; }
   /// Returns whether enough steps have passed since the last look to make another one cheap.
   bool is_due(std::uint64_t step) const;
 

@@ -119,8 +119,9 @@ class Simulation {
 
   /// Copy a quantity of all particles in the order z, y, x. Heights are empty without a membrane.
   void displacements(std::vector<double>& xyz) const;
-  /// Copies the displacements of `count` particles from `first` on.
-  void displacements(std::vector<double>& xyz, Particle first, std::uint64_t count) const;
+  /// Copies the displacements of `count` particles from `first` on to the first rank, without the
+  /// rest of the state. Returns whether this is that rank.
+  bool displacements_in_first(std::vector<double>& xyz, Particle first, std::uint64_t count) const;
   void velocities(std::vector<double>& xyz) const;  ///< v(n-1/2), m/s
   void heights(std::vector<double>& values) const;
   /// Displacement or velocity of all particles in their order, where it is one array in memory.
