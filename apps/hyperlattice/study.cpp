@@ -3,6 +3,7 @@
 #include "commands.hpp"
 
 #include <quantities/units.hpp>
+#include <ranks/launcher.hpp>
 #include <study/perform.hpp>
 
 #include <spdlog/spdlog.h>
@@ -43,6 +44,7 @@ int exit_code(const StudyResult& done) {
 }
 
 int run_study(Arguments a) {
+  must_be_one_process("study");
   Study study = read_study(a.study, a.settings);
   if (!a.target_error.empty()) study.target_error = read_target(a.target_error);
   Faults faults;

@@ -18,6 +18,10 @@ struct Launcher {
 /// Returns what the environment says; one process if no known launcher started this one.
 Launcher launcher();
 
+/// Throws OutsideError if a launcher started several processes: for a command that runs in one, and
+/// of which each process would write the same files.
+void must_be_one_process(const std::string& command);
+
 /// The word for no engine.
 inline constexpr const char* no_engine = "none";
 

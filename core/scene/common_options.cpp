@@ -23,7 +23,7 @@ struct CommonSchema {
   using Options = CommonOptions;
   static Declaration schema() {
     Declaration declared("", "");
-    if (family == Family::failures) return declared;
+    if (family == Family::failures || family == Family::engines) return declared;
     declared
         .add<&Options::name>("name", "",
                              "label of the stage, for messages and names of files; the last part "

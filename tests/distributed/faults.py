@@ -120,6 +120,14 @@ def alone_on_request(trial):
     expect(end.returncode == 0, end.stderr)
 
 
+def study(trial):
+    """Each process would write the same files."""
+    out = os.path.join(trial.folder, "study_out")
+    end = launch.run(RANKS, trial.program, "study", trial.scene, "--out", out)
+    expect(end.returncode == 4 and "runs in one process" in end.stderr, end.stderr)
+    expect(not os.path.exists(out), "something was written")
+
+
 def other_instructions(trial):
     """A rank that would give other bits."""
     words = trial.words("--quiet")
@@ -195,7 +203,7 @@ def links_no_mpi(trial):
         expect(("libmpi" in needs) == path.endswith("engines.mpi.so"), f"{path}: {needs}")
 
 
-CASES = [wrong_scene, folder_in_use, unstable, one_law_fails, one_writer_fails, no_engine, alone_on_request, other_instructions, killed, interrupted, links_no_mpi]
+CASES = [wrong_scene, folder_in_use, unstable, one_law_fails, one_writer_fails, no_engine, alone_on_request, study, other_instructions, killed, interrupted, links_no_mpi]
 
 
 def main(program, name):
