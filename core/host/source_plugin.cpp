@@ -192,11 +192,11 @@ class Compilation {
     spdlog::info("compiling {}", source_.string());
     std::vector<Command> commands = object_commands(folder.path());
     run(commands);
-    if (const CompiledPlugin problem = problem_of(commands); problem.problem != Problem::none)
+    if (CompiledPlugin problem = problem_of(commands); problem.problem != Problem::none)
       return problem;
     std::vector<Command> linking{link_command(folder.path(), commands.size())};
     run(linking);
-    if (const CompiledPlugin problem = problem_of(linking); problem.problem != Problem::none)
+    if (CompiledPlugin problem = problem_of(linking); problem.problem != Problem::none)
       return problem;
     return put_into_cache(folder.path(), entry);
   }
@@ -256,6 +256,7 @@ class Compilation {
   static void run(std::vector<Command>& commands) {
     const double seconds = most_seconds();
     std::vector<std::thread> threads;
+    threads.reserve(commands.size());
     for (Command& one : commands)
       threads.emplace_back([&one, seconds] { one.end = run_child(one.words, one.log, seconds); });
     for (std::thread& thread : threads) thread.join();

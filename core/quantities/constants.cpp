@@ -15,7 +15,7 @@ bool is_constant_name(std::string_view name) {
 }
 
 std::string add_constant(const std::string& text, std::vector<ExpressionName>& names) {
-  const std::string expected = "\"name = quantity\", and not \"" + text + '"';
+  std::string expected = "\"name = quantity\", and not \"" + text + '"';
   const auto equals = text.find('=');
   if (equals == std::string::npos) return expected;
   std::string name = text.substr(0, equals);

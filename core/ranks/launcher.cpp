@@ -27,10 +27,11 @@ Launcher launcher() {
 void must_be_one_process(const std::string& command) {
   const Launcher started = launcher();
   if (started.processes == 1) return;
-  throw OutsideError(fmt::format(
-      "hyperlattice {} runs in one process, but a launcher started {} ({}={}): each would write the "
-      "same files. Start it without the launcher.",
-      command, started.processes, started.variable, started.processes));
+  throw OutsideError(
+      fmt::format("hyperlattice {} runs in one process, but a launcher started {} ({}={}): each "
+                  "would write the "
+                  "same files. Start it without the launcher.",
+                  command, started.processes, started.variable, started.processes));
 }
 
 std::unique_ptr<Ranks> join_ranks(Host& host, const std::string& engine) {
