@@ -16,7 +16,10 @@ SectionForces::SectionForces(const BlockSet& blocks, const Clock& clock,
       pressures_(pressures),
       damage_(damage),
       tetrahedra_(section.tetrahedra) {
-  for (const CutSpring& cut : section.springs) {
+  constexpr std::size_t piece = 1024;  // springs
+  for (std::size_t n = 0; n < section.springs.size(); ++n) {
+    const CutSpring& cut = section.springs[n];
+    if (n % piece == 0) pieces_.push_back(springs_.size());
     const Place place = blocks_.layout().place(cut.a);
     auto number = blocks_.layout().number_in_row(blocks_[place.block], place, cut.neighbour);
     if (!damage_.empty() && damage_.factor(cut.a, cut.neighbour)) number = cut.neighbour;
@@ -24,6 +27,7 @@ SectionForces::SectionForces(const BlockSet& blocks, const Clock& clock,
     springs_.push_back({end_of(cut.a), end_of(cut.b), place.row, *number, place.site, cut.neighbour,
                         cut.a_is_before});
   }
+  pieces_.push_back(springs_.size());
   for (const CutCell& cut : section.cells) {
     Cell cell{{}, cut.modulus, cut.before};
     for (std::size_t n = 0; n < 8; ++n) cell.corners[n] = end_of(cut.corners[n]);
@@ -106,11 +110,9 @@ std::optional<double> SectionForces::remaining(const Spring& spring) const {
 }
 
 Resultant SectionForces::sum(Vec3 about) const {
-  constexpr std::size_t piece = 1024;  // springs, for any number of threads
-  const std::size_t all = springs_.size();
-  std::vector<Resultant> parts((all + piece - 1) / piece);
+  std::vector<Resultant> parts(pieces_.size() - 1);
   blocks_.team().for_each(parts.size(), [&](std::size_t n) {
-    for (std::size_t s = n * piece; s < std::min(all, (n + 1) * piece); ++s) {
+    for (std::size_t s = pieces_[n]; s < pieces_[n + 1]; ++s) {
       if (const auto remains = remaining(springs_[s])) add(springs_[s], *remains, about, parts[n]);
     }
   });

@@ -64,6 +64,9 @@ class SectionForces {
   const NodalPressures& pressures_;
   const DamageField& damage_;
   std::vector<Spring> springs_;
+  /// First spring of each piece of a sum, and the number of springs. Pieces are ranges of all
+  /// springs of the section: they do not depend on which of these exist.
+  std::vector<std::size_t> pieces_;
   std::vector<Cell> cells_;
   std::vector<CutTetrahedron> tetrahedra_;
 };
