@@ -3,8 +3,6 @@
 
 #include <hyperlattice/volumetric_cell.hpp>
 
-#include <algorithm>
-
 namespace hyperlattice {
 
 SectionForces::SectionForces(const BlockSet& blocks, const Clock& clock,

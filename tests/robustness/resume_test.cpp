@@ -60,11 +60,11 @@ const Case cases[] = {
      }},
     {"section",  // of more than 1024 springs, some of which are gone when the run goes on
      [](json& scene) {
-       scene["pipeline"][lattice]["shape"]["box"]["high"] = {0.018, 0.018, 0.014};
+       scene["pipeline"][lattice]["shape"]["box"]["high"] = {0.018, 0.018, 0.02};
        for (json& stage : scene["pipeline"])
          if (stage["type"] == "solvers.explicit") stage["end_time"] = "0.6 ms";
        scene["pipeline"].push_back({{"type", "probes.section"},
-                                    {"point", {0, 0, 0.0132}},
+                                    {"point", {0, 0, 0.0192}},
                                     {"normal", {0.05, 0.02, 1}},
                                     {"every", "10 us"}});
      }},
