@@ -1,5 +1,6 @@
 #include <model/critical_step.hpp>
 #include <model/local_limits.hpp>
+#include <model/neighbour_pairs.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -22,22 +23,16 @@ LocalLimits::LocalLimits(const Model& model) {
   const Body& body = model.body;
   std::vector<StiffnessBound> bounds(body.particles);
   std::vector<std::uint8_t> alike(body.particles, 1);  // all springs of its own material
-  for (const Run& run : body.runs)
-    for (std::int32_t i = run.begin; i < run.end; ++i)
-      for (std::uint32_t n = 0; n < model.springs.neighbours.size(); ++n) {
-        const NeighbourGeometry& to = model.springs.neighbours[n];
-        const Particle a = run.first + static_cast<Particle>(i - run.begin),
-                       b = body.at({i + to.site.dx, run.j + to.site.dy, run.k + to.site.dz});
-        if (b == Body::no_particle) continue;
-        const SpringProperties properties = model.spring_properties(a, b, n);
-        SpringConstants spring = model.springs.spring_to(n, model.kinds.of(a), model.kinds.of(b));
-        spring.stiffness = properties.share * properties.stiffness;
-        spring.cross_stiffness = properties.share * properties.cross_stiffness;
-        for (const auto& [particle, side] : {std::pair{a, 1}, {b, -1}})
-          bounds[particle].add(to, side, spring, body.grid.membrane_distance,
-                               model.springs.choice.membrane);
-        if (model.kinds.of(a) != model.kinds.of(b)) alike[a] = alike[b] = 0;
-      }
+  for_neighbour_pairs(model, [&](Particle a, Particle b, std::uint32_t n) {
+    const SpringProperties properties = model.spring_properties(a, b, n);
+    SpringConstants spring = model.springs.spring_to(n, model.kinds.of(a), model.kinds.of(b));
+    spring.stiffness = properties.share * properties.stiffness;
+    spring.cross_stiffness = properties.share * properties.cross_stiffness;
+    for (const auto& [particle, side] : {std::pair{a, 1}, {b, -1}})
+      bounds[particle].add(model.springs.neighbours[n], side, spring, body.grid.membrane_distance,
+                           model.springs.choice.membrane);
+    if (model.kinds.of(a) != model.kinds.of(b)) alike[a] = alike[b] = 0;
+  });
   for (Particle p = 0; p < body.particles; ++p) {
     const double stiffness = bounds[p].value(),
                  bound = stiffness > 0 ? 2 / std::sqrt(stiffness / model.mass(p)) : infinity;

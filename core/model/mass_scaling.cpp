@@ -1,5 +1,6 @@
 #include <model/critical_step.hpp>
 #include <model/mass_scaling.hpp>
+#include <model/neighbour_pairs.hpp>
 
 #include <spdlog/fmt/fmt.h>
 
@@ -38,22 +39,17 @@ std::vector<double> bounds_of_particles(const Model& model) {
   const KernelChoice::Membrane membrane = model.springs.choice.membrane;
   std::vector<StiffnessBound> others(body.particles);
   std::vector<std::uint8_t> inside(body.particles);  // 1: it has springs inside its material
-  for (const Run& run : body.runs)
-    for (std::int32_t i = run.begin; i < run.end; ++i)
-      for (std::uint32_t n = 0; n < model.springs.neighbours.size(); ++n) {
-        const NeighbourGeometry& to = model.springs.neighbours[n];
-        const Particle a = run.first + static_cast<Particle>(i - run.begin),
-                       b = body.at({i + to.site.dx, run.j + to.site.dy, run.k + to.site.dz});
-        if (b == Body::no_particle) continue;
-        if (model.kinds.of(a) == model.kinds.of(b)) {
-          inside[a] = inside[b] = 1;
-          continue;
-        }
-        const SpringConstants& spring =
-            model.springs.spring_to(n, model.kinds.of(a), model.kinds.of(b));
-        others[a].add(to, 1, spring, body.grid.membrane_distance, membrane);
-        others[b].add(to, -1, spring, body.grid.membrane_distance, membrane);
-      }
+  for_neighbour_pairs(model, [&](Particle a, Particle b, std::uint32_t n) {
+    if (model.kinds.of(a) == model.kinds.of(b)) {
+      inside[a] = inside[b] = 1;
+      return;
+    }
+    const NeighbourGeometry& to = model.springs.neighbours[n];
+    const SpringConstants& spring =
+        model.springs.spring_to(n, model.kinds.of(a), model.kinds.of(b));
+    others[a].add(to, 1, spring, body.grid.membrane_distance, membrane);
+    others[b].add(to, -1, spring, body.grid.membrane_distance, membrane);
+  });
   std::vector<double> bounds;
   bounds.reserve(body.particles);
   for (Particle p = 0; p < body.particles; ++p) {
