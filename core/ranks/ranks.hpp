@@ -66,7 +66,18 @@ class Ranks {
   };
 
   /// Places of the program where the ranks meet.
-  enum class Meeting : std::int64_t { end, start, step, state, results, failures, speed, stage };
+  enum class Meeting : std::int64_t {
+    end,
+    start,
+    step,
+    state,
+    results,
+    failures,
+    speed,
+    stage,
+    loads,
+    damage
+  };
   /// Waits until all ranks are here, and returns the largest of their numbers. Wishes are then
   /// agreed. Throws OtherRankError if another rank has failed instead of coming here.
   std::int64_t meet(Meeting place, std::int64_t number = 0);

@@ -4,6 +4,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace hyperlattice {
@@ -32,6 +33,12 @@ ActingLoads::ActingLoads(BlockSet& blocks, const Clock& clock)
     acting_[l].memory.resize(load.memory);
     for (const LoadedParticle& loaded : load.particles)
       acting_[l].moves |= (loaded.displaced | loaded.driven) != 0;
+  }
+  watched_.resize(static_cast<std::size_t>(blocks_.ranks().count()));
+  for (const Block& block : blocks_) {
+    std::vector<Block::Watched>& of_rank =
+        watched_[static_cast<std::size_t>(blocks_.owner(block.number))];
+    of_rank.insert(of_rank.end(), block.watched.begin(), block.watched.end());
   }
 }
 
@@ -78,6 +85,28 @@ void ActingLoads::watch(const Block& block) {
     };
     acting_[seen.load].displacement[seen.number] = of(block.displacement);
     acting_[seen.load].velocity[seen.number] = of(block.velocity);
+  }
+}
+
+void ActingLoads::share_watched() {
+  Ranks& ranks = blocks_.ranks();
+  const bool any = std::any_of(watched_.begin(), watched_.end(),
+                               [](const auto& of_rank) { return !of_rank.empty(); });
+  if (ranks.is_alone() || blocks_.is_whole() || !any) return;
+  ranks.meet(Ranks::Meeting::loads);
+  for (int rank = 0; rank < ranks.count(); ++rank) {
+    const std::vector<Block::Watched>& seen = watched_[static_cast<std::size_t>(rank)];
+    std::vector<std::array<Vec3, 2>> motion(seen.size());
+    if (rank == ranks.rank())
+      std::transform(seen.begin(), seen.end(), motion.begin(), [this](const Block::Watched& one) {
+        return std::array{acting_[one.load].displacement[one.number],
+                          acting_[one.load].velocity[one.number]};
+      });
+    ranks.spread(rank, std::as_writable_bytes(std::span(motion)));
+    for (std::size_t n = 0; n < seen.size(); ++n) {
+      acting_[seen[n].load].displacement[seen[n].number] = motion[n][0];
+      acting_[seen[n].load].velocity[seen[n].number] = motion[n][1];
+    }
   }
 }
 

@@ -32,6 +32,8 @@ class ActingLoads {
   void prepare(const Sweep& sweep);
   /// Copies the motion of the block's watched particles to the loads.
   void watch(const Block& block);
+  /// Copies that motion between the ranks, after watch() of their own blocks.
+  void share_watched();
   /// Lets loads prepare their answers, after watch() of all blocks.
   void prepare_answers();
   /// Lets loads advance their memory, after the answers of a step.
@@ -88,8 +90,9 @@ class ActingLoads {
   BlockSet& blocks_;
   const Model& model_;
   const Clock& clock_;
-  std::vector<Acting> acting_;        // one per load
-  std::vector<double> rest_factors_;  // one per load in a state of rest, else empty
+  std::vector<Acting> acting_;                        // one per load
+  std::vector<std::vector<Block::Watched>> watched_;  // of each rank
+  std::vector<double> rest_factors_;                  // one per load in a state of rest, else empty
   double gravity_ = 1;
 };
 

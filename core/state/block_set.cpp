@@ -273,22 +273,24 @@ void BlockSet::gather_results() {
 void BlockSet::gather_broken() { spread(visit_found); }
 
 std::int64_t BlockSet::exchange_ranks() {
-  std::int64_t broken = 0;
-  if (ranks_.is_alone()) return broken;
+  std::int64_t found = 0;
+  if (ranks_.is_alone()) return found;
   for (std::size_t b = first_mine_; b < last_mine_; ++b)
-    broken += static_cast<std::int64_t>(blocks_[b].broken.size());
-  broken = ranks_.meet(Ranks::Meeting::step, broken);
+    found += static_cast<std::int64_t>(blocks_[b].broken.size() + blocks_[b].noted.size());
+  found = ranks_.meet(Ranks::Meeting::step, found);
   whole_ = Whole::nowhere;
   if (!keeps_whole_) {
     halo_->exchange(blocks_, ranks_);
-    return broken;
+    if (found > 0 && !model_.cohesive.empty())
+      spread([](Archive& archive, Block& block) { archive(block.noted); });
+    return found;
   }
   spread([&](Archive& archive, Block& block) {
     visit_all(archive, block);
     visit_found(archive, block);
   });
   whole_ = Whole::everywhere;
-  return broken;
+  return found;
 }
 
 void BlockSet::visit_all(Archive& archive, Block& block) const {

@@ -73,6 +73,8 @@ class BlockSet {
   bool is_mine(const Block& block) const {
     return ranks_.is_alone() || (first_mine_ <= block.number && block.number < last_mine_);
   }
+  /// Returns the rank that computes a block.
+  int owner(std::size_t block) const { return owners_[block]; }
 
   /// Says that all blocks must be up to date before each step, in every rank.
   void keep_whole() { keeps_whole_ = true; }
@@ -93,7 +95,8 @@ class BlockSet {
   /// Copies to every rank what the last evaluation found for rows and boundary particles.
   void gather_results();
   /// Meets the other ranks after each has moved its own blocks, and gets the rows of others that it
-  /// reads. Returns the largest number of springs that broke in a rank.
+  /// reads, and all notes for the field of damage. Returns the largest number of springs that broke
+  /// and of notes in a rank.
   std::int64_t exchange_ranks();
   /// Copies the breakages of this step to every rank.
   void gather_broken();

@@ -95,8 +95,9 @@ double DamageField::opening(std::uint32_t number) const {
 void DamageField::copy_openings(std::vector<double>& values) const {
   values.assign(model_.body.particles, 0);
   if (empty()) return;
-  records_.for_each(
-      [&](std::uint32_t number) { values[records_[number].particle] = opening(number); });
+  records_.for_each(records_.order(), [&](std::uint32_t number) {
+    values[records_[number].particle] = opening(number);
+  });
 }
 
 void DamageField::copy_crack_times(std::vector<double>& values) const {

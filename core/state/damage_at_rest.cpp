@@ -48,8 +48,9 @@ SettledDamage DamageField::settle(const DamageBounds& bounds) {
   if (settled_.empty()) settled_ = accepted;
   settled_.resize(records_.numbers(), 0);
   for (const std::uint32_t number : records_.order()) records_.set_damage(number, settled_[number]);
-  gather_cells(Part::stress);
-  records_.for_each([this](std::uint32_t record) { gather(record, Part::stress); });
+  compute_cells(Part::stress);
+  records_.for_each(records_.order(),
+                    [this](std::uint32_t record) { compute(record, Part::stress); });
 
   SettledDamage found;
   std::vector<double> damage = settled_;
@@ -83,8 +84,8 @@ SettledDamage DamageField::settle(const DamageBounds& bounds) {
     for (const std::uint32_t number : added) {
       accepted[number] = settled_[number] = damage[number] = 0;
       for (const std::uint32_t cell : records_[number].cells.numbers)
-        if (cell != DamageCells::none) gather_cell(records_.cells()[cell], Part::stress);
-      gather(number, Part::stress);
+        if (cell != DamageCells::none) compute(records_.cells()[cell], Part::stress);
+      compute(number, Part::stress);
     }
   }
   const double part = part_of_change(searches_++);

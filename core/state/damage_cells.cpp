@@ -1,6 +1,5 @@
 #include <state/damage_cells.hpp>
 
-#include <algorithm>
 #include <tuple>
 
 namespace hyperlattice {
@@ -51,35 +50,6 @@ void DamageCells::release(const CellsOfParticle& cells) {
     if (number == none || --cells_[number].users > 0) continue;
     by_lowest_.erase(cells_[number].corners[0]);
     unused_.push_back(number);
-  }
-}
-
-void DamageCells::archive(Archive& archive) {
-  if (empty()) return;
-  /// What a cell cannot find again from the model and the bits of the sites.
-  struct Kept {
-    Particle lowest;
-    double extension, factor;
-    std::uint64_t present, handed_over;
-  };
-  std::vector<Kept> all;
-  if (!archive.restores()) {
-    all.reserve(cells_.size());
-    for (const DamageCell& cell : cells_)
-      if (cell.users > 0)
-        all.push_back({cell.corners[0], cell.extension, cell.factor, cell.present ? 1U : 0U,
-                       cell.handed_over ? 1U : 0U});
-    std::sort(all.begin(), all.end(),
-              [](const Kept& a, const Kept& b) { return a.lowest < b.lowest; });
-  }
-  archive(all);
-  if (!archive.restores()) return;
-  for (const Kept& kept : all) {
-    DamageCell& cell = cells_[at(kept.lowest)];
-    cell.extension = kept.extension;
-    cell.factor = kept.factor;
-    cell.present = kept.present != 0;
-    cell.handed_over = kept.handed_over != 0;
   }
 }
 

@@ -60,8 +60,14 @@ class DamageCells {
   void release(const CellsOfParticle& cells);
 
   void archive(Archive& archive);
+  /// Brings the cells up to date in every rank. All ranks must call it after a meeting.
+  void spread();
 
  private:
+  /// What a cell cannot find again from the model and the bits of the sites.
+  struct Kept;
+  std::vector<Kept> kept() const;
+  void restore(const Kept& kept);
   std::uint32_t number_of(Site cell, Particle lowest);
 
   BlockSet& blocks_;

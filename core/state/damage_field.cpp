@@ -55,9 +55,10 @@ DamageField::Motion DamageField::motion_of(const Block& block, std::uint64_t ind
 }
 
 void DamageField::evaluate() {
-  gather_cells(Part::all);
-  records_.for_each([this](std::uint32_t record) { gather(record); });
-  for (const std::uint32_t number : records_.order()) {
+  is_whole_ = is_whole_ && blocks_.ranks().is_alone();
+  compute_cells(Part::all);
+  records_.for_each(records_.mine(), [this](std::uint32_t record) { compute(record); });
+  for (const std::uint32_t number : records_.mine()) {
     DamageRecord& record = records_[number];
     blocks_[record.block].fracture_work[record.row] += record.dissipated;
     record.dissipated = 0;
@@ -76,7 +77,7 @@ void DamageField::evaluate() {
 /// in the step, and the balance is as exact as that of springs that do not change. In an implicit
 /// step the force is the change of the energy with the new factor over the change of elongation
 /// (statics/soft_springs.cpp): without numerical damping D = 1/2 (f_n - f_{n+1}) k u_n^2.
-void DamageField::gather(std::uint32_t number, Part part) {
+void DamageField::compute(std::uint32_t number, Part part) {
   DamageRecord& record = records_[number];
   const bool whole = part == Part::all;
   if (whole && rests(record)) return;
@@ -163,8 +164,45 @@ double DamageField::elongation(const DamageSpring& spring, std::size_t cross, co
 void DamageField::update(double time_step) {
   evaluate();
   next_.resize(records_.numbers());
-  records_.for_pieces([&](std::span<const std::uint32_t> records) { grow(records, time_step); });
+  records_.for_pieces(records_.mine(),
+                      [&](std::span<const std::uint32_t> records) { grow(records, time_step); });
+  share_growth();
   set_damages(next_, clock_.time());
+}
+
+/// Tells the other ranks the damage of own records after the step, and what else of them decides.
+void DamageField::share_growth() {
+  Ranks& ranks = blocks_.ranks();
+  if (ranks.is_alone() || records_.order().empty()) return;
+  struct Growth {
+    double damage, rate, lag;
+    std::uint64_t rests_until;
+  };
+  ranks.meet(Ranks::Meeting::damage);
+  for (int rank = 0; rank < ranks.count(); ++rank) {
+    const std::span<const std::uint32_t> of_rank = records_.of_rank(rank);
+    std::vector<Growth> all(of_rank.size());
+    if (rank == ranks.rank())
+      std::transform(of_rank.begin(), of_rank.end(), all.begin(), [this](std::uint32_t number) {
+        const DamageRecord& record = records_[number];
+        return Growth{next_[number], record.rate, record.lag, record.rests_until};
+      });
+    ranks.spread(rank, std::as_writable_bytes(std::span(all)));
+    for (std::size_t n = 0; n < all.size(); ++n) {
+      DamageRecord& record = records_[of_rank[n]];
+      next_[of_rank[n]] = all[n].damage;
+      record.rate = all[n].rate;
+      record.lag = all[n].lag;
+      record.rests_until = all[n].rests_until;
+    }
+  }
+}
+
+void DamageField::gather() {
+  if (empty() || is_whole_ || blocks_.ranks().is_alone()) return;
+  blocks_.ranks().meet(Ranks::Meeting::damage);
+  records_.spread();
+  is_whole_ = true;
 }
 
 /// Sets the damage of all records at a time, s, and notes what follows from it.
@@ -256,18 +294,22 @@ void DamageField::note_gone() {
       const std::uint32_t other = records_.of(spring.to);
       const bool ends_too = std::binary_search(sorted.begin(), sorted.end(), other);
       // The other end has counted it, in an earlier step or in this one.
-      if (!spring.present ||
-          (records_.remaining_of(spring.to) == 0 && !(ends_too && record.particle < spring.to)))
+      if (records_.remaining_of(spring.to) == 0 && !(ends_too && record.particle < spring.to))
         continue;
       const DamageRecord& first = spring.forward ? record : records_[other];
-      blocks_[first.block].broken.push_back(
-          {{spring.forward ? record.particle : spring.to,
-            spring.forward ? spring.to : record.particle, spring.neighbour, true},
-           spring.elongation[0],
-           first.row,
-           spring.neighbour,
-           first.site,
-           true});
+      if (!blocks_.is_mine(blocks_[first.block])) continue;
+      const Particle to = spring.forward ? spring.to : record.particle;
+      const auto springs = first.springs();
+      const auto own = std::find_if(springs.begin(), springs.end(), [&](const DamageSpring& same) {
+        return same.forward && same.to == to;
+      });
+      if (own->present)
+        blocks_[first.block].broken.push_back({{first.particle, to, spring.neighbour, true},
+                                               own->elongation[0],
+                                               first.row,
+                                               spring.neighbour,
+                                               first.site,
+                                               true});
     }
   }
 }
@@ -287,7 +329,7 @@ void DamageField::surround(const std::vector<std::uint32_t>& damaged) {
   for (const std::uint32_t number : behind) {
     records_[number].marked = clock_.steps();
     records_[number].rests_until = 0;
-    note_elongations(number);
+    if (blocks_.is_mine(blocks_[records_[number].block])) note_elongations(number);
   }
 }
 
@@ -320,6 +362,7 @@ bool DamageField::touches_damage(const DamageRecord& record) const {
 }
 
 void DamageField::finish() {
+  is_whole_ = is_whole_ && blocks_.ranks().is_alone();
   for (const std::uint32_t number : soft_) {
     DamageRecord& record = records_[number];
     hand_over_cells(record);

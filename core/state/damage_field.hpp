@@ -74,6 +74,10 @@ class DamageField {
   /// Notes the ends of springs above their alarm. Each block's thread may call it.
   void note(Block& block, const AlarmRow& springs) const;
 
+  /// Brings the field up to date in every rank. All ranks must call it; BlockSet::gather() and
+  /// gather_in_first() do the same for the motion.
+  void gather();
+
   /// Returns the records of a row, with the results of the last evaluation.
   template <class Visit>
   void for_row(const Block& block, std::uint32_t row, const Visit& visit) const {
@@ -104,7 +108,10 @@ class DamageField {
   /// Returns the cells that are handed over, in the order of their lowest corners.
   std::vector<SoftCell> soft_cells() const;
 
-  void archive(Archive& archive) { records_.archive(archive); }
+  void archive(Archive& archive) {
+    records_.archive(archive);
+    if (archive.restores()) is_whole_ = true;
+  }
 
  private:
   struct Motion;
@@ -129,12 +136,13 @@ class DamageField {
                  work = (1 - late) * mean_work + late * now.factor * u * (u - start);
     return work - (now_stored - stored(before.factor, start));
   }
-  /// What gather() computes: all, or the stress alone, which leaves the energies as they are.
+  /// What compute() computes: all, or the stress alone, which leaves the energies as they are.
   enum class Part { all, stress };
-  void gather(std::uint32_t number, Part part = Part::all);
+  void compute(std::uint32_t number, Part part = Part::all);
   // soft_cells.cpp
-  void gather_cells(Part part);
-  void gather_cell(DamageCell& cell, Part part) const;
+  void compute_cells(Part part);
+  void compute(DamageCell& cell, Part part) const;
+  bool is_mine(const DamageCell& cell) const;
   CellResponse response(const DamageCell& cell) const;
   double stiffness_of(const DamageCell& cell) const;
   double factor(const DamageCell& cell) const;
@@ -156,6 +164,7 @@ class DamageField {
   void watch_all();
   void watch(Block& block, double stretch, double shortening) const;
   void grow(std::span<const std::uint32_t> records, double time_step);
+  void share_growth();
   void note_gone();
   void surround(const std::vector<std::uint32_t>& damaged);
   void remove_idle();
@@ -177,6 +186,7 @@ class DamageField {
   std::vector<std::uint32_t> ended_;  // records whose omega became 0 in this step
   std::vector<double> settled_;       // damage of each record after the last search; empty: none
   int searches_ = 0;                  // since the last accepted state of rest
+  bool is_whole_ = true;              // whether all records are up to date in every rank
   double forward_ = 0;                // of an implicit step whose dissipation is not counted yet
 };
 

@@ -100,6 +100,16 @@ void DamageRecords::find_rows() {
   }
 }
 
+std::span<const std::uint32_t> DamageRecords::of_rank(int rank) const {
+  const auto is_before = [this](std::uint32_t record, int of) {
+    return blocks_.owner(records_[record].block) < of;
+  };
+  const auto begin = std::lower_bound(order_.begin(), order_.end(), rank, is_before),
+             end = std::lower_bound(begin, order_.end(), rank + 1, is_before);
+  return order().subspan(static_cast<std::size_t>(begin - order_.begin()),
+                         static_cast<std::size_t>(end - begin));
+}
+
 bool DamageRecords::has_field(Particle particle) const {
   return model_.cohesive[model_.kinds.material(particle)].stage != nullptr &&
          (model_.intact.empty() || model_.intact[particle] == 0);
@@ -220,68 +230,6 @@ void DamageRecords::clear_bit(const DamageRecord& record, const DamageSpring& sp
   const Block& block = blocks_[spring.forward ? record.block : spring.block];
   std::uint16_t& bits = block.alive[spring.forward ? record.index : spring.index];
   bits = static_cast<std::uint16_t>(bits & ~(1U << spring.neighbour));
-}
-
-void DamageRecords::archive(Archive& archive) {
-  /// What a record cannot find again from the model.
-  struct Kept {
-    Particle particle;
-    double damage, rate, height, alpha_factor, crack_time;
-    std::uint64_t marked, rests_until;
-    std::uint32_t present, handed_over;  ///< bits of springs
-    double elongation[DamageRecord::most_springs][2], factor[DamageRecord::most_springs][2];
-  };
-  std::vector<Kept> all;
-  if (!archive.restores()) all.reserve(order_.size());
-  for (std::size_t n = 0; !archive.restores() && n < order_.size(); ++n) {
-    const DamageRecord& record = records_[order_[n]];
-    Kept kept{record.particle,
-              damages_[order_[n]],
-              record.rate,
-              record.height,
-              record.alpha_factor,
-              record.crack_time,
-              record.marked,
-              record.rests_until,
-              0,
-              0,
-              {},
-              {}};
-    for (std::size_t s = 0; s < record.count; ++s) {
-      const DamageSpring& spring = record.all[s];
-      kept.present |= (spring.present ? 1U : 0U) << s;
-      kept.handed_over |= (spring.handed_over ? 1U : 0U) << s;
-      std::copy_n(spring.elongation, 2, kept.elongation[s]);
-      std::copy_n(spring.factor, 2, kept.factor[s]);
-    }
-    all.push_back(kept);
-  }
-  archive(all);
-  if (!archive.restores()) return cells_.archive(archive);
-  remove_if([](const DamageRecord&) { return true; });
-  std::vector<Particle> particles;
-  particles.reserve(all.size());
-  for (const Kept& kept : all) particles.push_back(kept.particle);
-  add(std::move(particles));
-  for (const Kept& kept : all) {
-    const std::uint32_t number = index_[kept.particle];
-    DamageRecord& record = records_[number];
-    set_damage(number, kept.damage);
-    record.rate = kept.rate;
-    record.height = kept.height;
-    record.alpha_factor = kept.alpha_factor;
-    record.crack_time = kept.crack_time;
-    record.marked = kept.marked;
-    record.rests_until = kept.rests_until;
-    for (std::size_t s = 0; s < record.count; ++s) {
-      DamageSpring& spring = record.all[s];
-      spring.present = (kept.present >> s & 1U) != 0;
-      spring.handed_over = (kept.handed_over >> s & 1U) != 0;
-      std::copy_n(kept.elongation[s], 2, spring.elongation);
-      std::copy_n(kept.factor[s], 2, spring.factor);
-    }
-  }
-  cells_.archive(archive);
 }
 
 }  // namespace hyperlattice

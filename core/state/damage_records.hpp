@@ -1,5 +1,8 @@
 // The particles near cracks. Damage is stored only for particles that have some, for their
 // neighbours, and for particles whose stress may reach the surface; all others have d = 0.
+//
+// Every rank has the records of all ranks. The damage of each is always that of its own rank; what
+// else a record holds is up to date in its own rank only, until spread().
 #pragma once
 
 #include <model/cohesive.hpp>
@@ -98,6 +101,12 @@ class DamageRecords {
   const DamageRecord& operator[](std::uint32_t record) const { return records_[record]; }
   /// Returns the numbers of all records in the order of their particles.
   std::span<const std::uint32_t> order() const { return order_; }
+  /// Returns those of the particles that this rank computes.
+  std::span<const std::uint32_t> mine() const {
+    return blocks_.ranks().is_alone() ? order() : of_rank(blocks_.ranks().rank());
+  }
+  /// Returns those of the particles that a rank computes.
+  std::span<const std::uint32_t> of_rank(int rank) const;
   /// Returns those of one row of a block.
   std::span<const std::uint32_t> of_row(std::size_t block, std::uint32_t row) const {
     const auto [begin, end] = rows_[block][row];
@@ -146,25 +155,31 @@ class DamageRecords {
   bool exists(const DamageRecord& record, const DamageSpring& spring) const;
   void clear_bit(const DamageRecord& record, const DamageSpring& spring);
 
-  /// Calls work(record number) for all on the threads of the run.
+  /// Calls work(record number) for these records on the threads of the run.
   template <class Work>
-  void for_each(const Work& work) const {
-    for_pieces([&](std::span<const std::uint32_t> records) {
-      for (const std::uint32_t record : records) work(record);
+  void for_each(std::span<const std::uint32_t> records, const Work& work) const {
+    for_pieces(records, [&](std::span<const std::uint32_t> piece) {
+      for (const std::uint32_t record : piece) work(record);
     });
   }
-  /// Calls work(record numbers) for pieces of the order.
+  /// Calls work(record numbers) for pieces of these records.
   template <class Work>
-  void for_pieces(const Work& work) const {
+  void for_pieces(std::span<const std::uint32_t> records, const Work& work) const {
     constexpr std::size_t piece = 64;
-    blocks_.team().for_each((order_.size() + piece - 1) / piece, [&](std::size_t n) {
-      work(order().subspan(n * piece, std::min(piece, order_.size() - n * piece)));
+    blocks_.team().for_each((records.size() + piece - 1) / piece, [&](std::size_t n) {
+      work(records.subspan(n * piece, std::min(piece, records.size() - n * piece)));
     });
   }
 
   void archive(Archive& archive);
+  /// Brings the records up to date in every rank. All ranks must call it after a meeting.
+  void spread();
 
  private:
+  /// What a record cannot find again from the model.
+  struct Kept;
+  Kept kept(std::uint32_t number) const;
+  void restore(const Kept& kept);
   void fill(DamageRecord& record, Particle particle) const;
   void add_spring(DamageRecord& record, const Neighbour& to, std::uint32_t neighbour,
                   bool forward) const;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <tuple>
 
@@ -42,6 +43,13 @@ void FailureRecord::collect(double step, bool in_ranks) {
       if (broken.spring.is_first && !broken.softened)
         broken.energy = energy_of(block, broken, ends_of(block, broken), step);
   if (in_ranks && !blocks_.is_whole()) blocks_.gather_broken();
+  /// What a breakage costs, J.
+  struct Loss {
+    double nodal_volumes = 0, spring = 0;
+    std::size_t last_cell = 0;
+  };
+  std::vector<Loss> losses;
+  std::vector<double> of_cells;
   for (Block& block : blocks_) {
     // Damage ends springs before the kernel breaks others.
     if (!blocks_.model().cohesive.empty())
@@ -64,12 +72,36 @@ void FailureRecord::collect(double step, bool in_ranks) {
       breakage.again = !broken.softened && softened_.contains({breakage.a, breakage.neighbour});
       breakages_.push_back(breakage);
       note(breakage, ends_of(block, broken));
-      energy_ += lose_cells(blocks_, breakage.a, breakage.neighbour, step);
-      if (!pressures_.empty()) energy_ += pressures_.lose(breakage.a, breakage.b, step);
-      if (!broken.softened) energy_ += broken.energy;
+      Loss& loss = losses.emplace_back();
+      lose_cells(blocks_, breakage.a, breakage.neighbour, step, of_cells);
+      loss.last_cell = of_cells.size();
+      if (!pressures_.empty()) loss.nodal_volumes = pressures_.lose(breakage.a, breakage.b, step);
+      if (!broken.softened) loss.spring = broken.energy;
     }
     block.broken.clear();
   }
+  share(of_cells);
+  std::size_t cell = 0;
+  for (const Loss& loss : losses) {
+    double cells = 0;
+    for (; cell < loss.last_cell; ++cell) cells += of_cells[cell];
+    energy_ += cells;
+    energy_ += loss.nodal_volumes;
+    energy_ += loss.spring;
+  }
+}
+
+/// Completes numbers of which each is known to one rank and 0 in the others.
+void FailureRecord::share(std::vector<double>& numbers) const {
+  Ranks& ranks = blocks_.ranks();
+  if (numbers.empty() || ranks.is_alone() || blocks_.is_whole()) return;
+  ranks.meet(Ranks::Meeting::failures);
+  std::vector<std::int64_t> bits(numbers.size());  // of 0 they are 0
+  const auto to_bits = [](double number) { return std::bit_cast<std::int64_t>(number); };
+  const auto to_number = [](std::int64_t of) { return std::bit_cast<double>(of); };
+  std::transform(numbers.begin(), numbers.end(), bits.begin(), to_bits);
+  ranks.sum(bits);
+  std::transform(bits.begin(), bits.end(), numbers.begin(), to_number);
 }
 
 /// Adds what follows from the last breakage.

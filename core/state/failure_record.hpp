@@ -58,6 +58,7 @@ class FailureRecord {
   void note(const Breakage& breakage, Ends ends);
   Ends find_ends(Particle a, Particle b) const;
   Ends ends_of(const Block& block, const Block::Broken& broken) const;
+  void share(std::vector<double>& numbers) const;
   Growth growth_now(const Ends& where) const;
   void arrange();
   /// Returns the number of open failures of this rank's blocks.

@@ -14,12 +14,6 @@ std::vector<int> owners_of(std::size_t blocks, int ranks) {
 
 std::string needs_whole(const Model& model) {
   if (model.body.is_listed()) return "the lattice is a list of springs";
-  if (!model.cohesive.empty()) return "damage grows";
-  if (!model.volumetric.empty() && model.springs.breakable)
-    return "cells with a volumetric energy may break";
-  for (std::size_t l = 0; l < model.loads.size(); ++l)
-    if (!model.loads[l].watched.empty())
-      return model.loads[l].stage->component->type() + " answers to the motion of particles";
   return "";
 }
 

@@ -29,14 +29,14 @@ double energy_of(const BlockSet& blocks, Site cell, double step) {
 
 }  // namespace
 
-double lose_cells(const BlockSet& blocks, Particle a, std::uint32_t neighbour, double step) {
+void lose_cells(const BlockSet& blocks, Particle a, std::uint32_t neighbour, double step,
+                std::vector<double>& lost) {
   const Model& model = blocks.model();
-  if (model.volumetric.empty()) return 0;
+  if (model.volumetric.empty()) return;
   const Neighbour& to = model.body.neighbours[neighbour];
   for (const std::int32_t steps : {to.dx, to.dy, to.dz})
-    if (std::abs(steps) > 1) return 0;  // such a spring belongs to no cell
+    if (std::abs(steps) > 1) return;  // such a spring belongs to no cell
   const Site site = model.body.site(a);
-  double energy = 0;
   for_cells_of(to, [&](int di, int dj, int dk) {
     const Site cell{site.i + di, site.j + dj, site.k + dk};
     const Particle lowest = model.body.at(cell);
@@ -46,9 +46,9 @@ double lose_cells(const BlockSet& blocks, Particle a, std::uint32_t neighbour, d
     const bool acts = (bits & cell_bit) != 0;
     // The field of damage sees that its cell has lost the bit, and counts the energy.
     bits = static_cast<std::uint16_t>(bits & ~(cell_bit | soft_cell_bit));
-    if (acts) energy += energy_of(blocks, cell, step);
+    const bool is_known = blocks.is_whole() || blocks.is_mine(*block);
+    lost.push_back(acts && is_known ? energy_of(blocks, cell, step) : 0);
   });
-  return energy;
 }
 
 }  // namespace hyperlattice

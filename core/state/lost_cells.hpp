@@ -4,11 +4,15 @@
 
 #include <state/block_set.hpp>
 
+#include <vector>
+
 namespace hyperlattice {
 
 /// Takes their volumetric energy from the cells of the spring from particle `a` to a neighbour.
-/// Returns the energy that is lost, J, with half of the work of the last step of length `step`, s,
-/// as FailureRecord counts it for springs. Must be called after the step, by one thread.
-double lose_cells(const BlockSet& blocks, Particle a, std::uint32_t neighbour, double step);
+/// Adds to `lost` the energy that each cell loses, J, with half of the work of the last step of
+/// length `step`, s, as FailureRecord counts it for springs; 0 if another rank knows it. Must be
+/// called after the step, by one thread.
+void lose_cells(const BlockSet& blocks, Particle a, std::uint32_t neighbour, double step,
+                std::vector<double>& lost);
 
 }  // namespace hyperlattice

@@ -55,10 +55,14 @@ double Simulation::inertia(Particle particle) const {
 /// Returns the state with all blocks up to date.
 Simulation::State& Simulation::whole() const {
   state_->blocks.gather();
+  state_->damage.gather();
   return *state_;
 }
 void Simulation::gather() const { whole(); }
-void Simulation::gather_in_first() const { state_->blocks.gather_in_first(); }
+void Simulation::gather_in_first() const {
+  state_->blocks.gather_in_first();
+  state_->damage.gather();
+}
 
 void Simulation::step(double time_step) { state_->step(time_step); }
 void Simulation::set_time(double time) { state_->clock.set(time); }
@@ -116,15 +120,15 @@ void Simulation::crack_times(std::vector<double>& values) const {
 }
 
 std::vector<SoftSpring> Simulation::soft_springs() const {
-  return state_->damage.empty() ? std::vector<SoftSpring>{} : state_->damage.soft_springs();
+  return state_->damage.empty() ? std::vector<SoftSpring>{} : whole().damage.soft_springs();
 }
 
 std::vector<SoftParticle> Simulation::soft_particles() const {
-  return state_->damage.empty() ? std::vector<SoftParticle>{} : state_->damage.soft_particles();
+  return state_->damage.empty() ? std::vector<SoftParticle>{} : whole().damage.soft_particles();
 }
 
 std::vector<SoftCell> Simulation::soft_cells() const {
-  return state_->damage.empty() ? std::vector<SoftCell>{} : state_->damage.soft_cells();
+  return state_->damage.empty() ? std::vector<SoftCell>{} : whole().damage.soft_cells();
 }
 
 CrackSurface Simulation::crack_surface() const {

@@ -37,23 +37,23 @@ double DamageField::factor(const DamageCell& cell) const {
   return sum / 4;
 }
 
-void DamageField::gather_cells(Part part) {
+void DamageField::compute_cells(Part part) {
   constexpr std::size_t piece = 64;
   DamageCells& cells = records_.cells();
   blocks_.team().for_each((cells.numbers() + piece - 1) / piece, [&](std::size_t n) {
     for (std::size_t c = n * piece; c < std::min(cells.numbers(), (n + 1) * piece); ++c)
-      gather_cell(cells[static_cast<std::uint32_t>(c)], part);
+      compute(cells[static_cast<std::uint32_t>(c)], part);
   });
 }
 
 /// Computes a cell. With its extension w, U = K_v w^2 / 2, it dissipates in a step, as springs do
-/// (see gather),
+/// (see compute() of records),
 ///   D = 1/2 (f_n - f_n+1) K_v l^3 w_n w_n+1.
 /// A cell of which nothing remains is lost for good when it is stretched, so that fragments which
 /// turn do not meet it again.
-void DamageField::gather_cell(DamageCell& cell, Part part) const {
+void DamageField::compute(DamageCell& cell, Part part) const {
   const bool whole = part == Part::all;
-  if (cell.users == 0 || (whole && rests(cell))) return;
+  if (cell.users == 0 || (whole && (rests(cell) || !is_mine(cell)))) return;
   if (whole) cell.force = {}, cell.stored = cell.dissipated = 0;
   cell.tension = 0;
   if (!cell.present) return;
@@ -110,6 +110,13 @@ void DamageField::note_extensions() {
     if (cell.users == 0) continue;
     cell.extension = extension_of(response(cell), stiffness_of(cell));
   }
+}
+
+/// Returns whether a particle that this rank computes is a corner of the cell.
+bool DamageField::is_mine(const DamageCell& cell) const {
+  return blocks_.ranks().is_alone() ||
+         std::any_of(cell.blocks.begin(), cell.blocks.end(),
+                     [this](const Block* block) { return blocks_.is_mine(*block); });
 }
 
 bool DamageField::rests(const DamageCell& cell) const {

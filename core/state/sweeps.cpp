@@ -105,9 +105,11 @@ void Sweeps::check_loads() const {
 /// Copies ghost planes, and lets loads see the motion of the particles that they watch.
 void Sweeps::read_motion() {
   blocks_.team().for_each(blocks_.size(), [&](std::size_t b) {
-    if (blocks_.is_mine(blocks_[b]) || blocks_.is_whole()) blocks_.exchange(blocks_[b]);
+    if (!blocks_.is_mine(blocks_[b]) && !blocks_.is_whole()) return;
+    blocks_.exchange(blocks_[b]);
     loads_.watch(blocks_[b]);
   });
+  loads_.share_watched();
   loads_.prepare_answers();
 }
 
