@@ -1,4 +1,5 @@
-# Glass in indirect tension and in bending, and in torsion with `long`: strengths against the surface of strength and the theory of elasticity.
+# Glass in indirect tension and in bending, and in torsion with `long`: strengths against the surface
+# of strength and the theory of elasticity.
 #   nine_circles.py PROGRAM FOLDER short|long
 import csv
 import math
@@ -32,8 +33,8 @@ if kind == "short":
     # The centre has the stresses s, 0 and -3 s; the force acts over 0.62 mm of the edge.
     expect("disc, Pa", largest("disc.json", "stress", "stress"), 0.97 * 44.81e6, 1.03 * 44.81e6)
     # A section all of whose lower half bears the strength would have 1.5 to 3 times the elastic moment.
-    low, high = (largest("beam.json", "stress", "stress", "--set", f'/variables/height="{height} mm"', "--set", f'/variables/pressed="{pressed} um"')
-                 for height, pressed in ((0.9, -15), (1.8, -7)))
+    low, high = (largest("beam.json", "stress", "stress", "--set", f'/variables/height="{height} mm"',
+                         "--set", f'/variables/pressed="{pressed} um"') for height, pressed in ((0.9, -15), (1.8, -7)))
     expect("beam of 1.8 mm over the strength", high / TENSION, 1.05, 1.2)
     expect("effect of size of half the height", (low / TENSION - 1) / (high / TENSION - 1), 1.5, 3)
 else:

@@ -107,19 +107,22 @@ def kalthoff_winkler(rows, orders, equal_errors):
 
 
 def cohesive_plate(rows, orders, equal_errors):
-    """Where and when the crack branches is that of another program of the model at b / h = 7.5, at b / h = 3 already."""
+    """Where and when the crack branches is that of another program of the model at b / h = 7.5,
+    at b / h = 3 already."""
     for r in rows:
         check(r["error"] < 0.05, f"{r['spacing']}: {r['errors']}")
 
 
 def cohesive_impact(rows, orders, equal_errors):
-    """The path is that of another program within two degrees: 7 to 8 % of the place 60 mm up. A strength of 1 % less does not turn it."""
+    """The path is that of another program within two degrees: 7 to 8 % of the place 60 mm up. A
+    strength of 1 % less does not turn it."""
     found = [r["errors"]["60 mm up"] for r in rows]
     check(max(found) < 0.08 and max(found) - min(found) < 0.03, f"60 mm up: {found}")
 
 
 def nine_circles(rows, orders, equal_errors):
-    """A plate under uniform stress bears its strength: the load moves slowly, and the surface is that of the inputs."""
+    """A plate under uniform stress bears its strength: the load moves slowly, and the surface is that
+    of the inputs."""
     for r in rows:
         check(r["error"] < 0.01, f"{r['test']}, {r['spacing']}: {r['error']}")
 
