@@ -43,7 +43,8 @@ void check_columns(const Study& study, const std::vector<PlannedTable>& tables) 
   Faults faults;
   std::vector<std::string> probes;
   probes.reserve(tables.size());
-  for (const PlannedTable& table : tables) probes.push_back(table.probe);
+  for (const PlannedTable& table : tables)
+    if (!table.probe.empty()) probes.push_back(table.probe);
   for (const Comparison& comparison : study.comparisons) {
     const auto table = std::find_if(tables.begin(), tables.end(), [&](const PlannedTable& t) {
       return t.probe == comparison.probe;
@@ -152,22 +153,26 @@ std::optional<std::vector<PlannedTable>> tables_in(const std::filesystem::path& 
   // In bytes; the first line is long if a probe has many places.
   constexpr std::uint64_t longest_head = 64 << 20;
   std::vector<PlannedTable> tables;
-  for (const Stage* probe : scene.of(Family::probes)) {
-    const auto file =
-        read_folder_file(run_directory, std::filesystem::path("probes") / (probe->name + ".csv"),
-                         longest_head, true);
-    if (!file || !file->refusal.empty()) return std::nullopt;
+  const auto add = [&](const std::string& probe, const std::string& name) {
+    const auto file = read_folder_file(run_directory, name, longest_head, true);
+    if (!file || !file->refusal.empty()) return false;
     tables.push_back(
-        {probe->name, csv_cells(std::string_view(file->text).substr(0, file->text.find('\n')))});
-  }
+        {probe, csv_cells(std::string_view(file->text).substr(0, file->text.find('\n')))});
+    return true;
+  };
+  if (!add("", "history.csv")) return std::nullopt;
+  for (const Stage* probe : scene.of(Family::probes))
+    if (!add(probe->name, "probes/" + probe->name + ".csv")) return std::nullopt;
   return tables;
 }
 
 std::string changed_table(const std::filesystem::path& run_directory, const Scene& scene) {
   const auto own = read_own_files(run_directory);
   if (!own) return fmt::format("its {} is missing", own_files_list);
-  for (const Stage* probe : scene.of(Family::probes)) {
-    const std::string name = "probes/" + probe->name + ".csv";
+  std::vector<std::string> names{"history.csv"};
+  for (const Stage* probe : scene.of(Family::probes))
+    names.push_back("probes/" + probe->name + ".csv");
+  for (const std::string& name : names) {
     if (!has_folder_file(run_directory, name)) return name + " is missing";
     const auto file = own->find(name);
     if (file == own->end() || file->second.hash.empty())

@@ -38,11 +38,12 @@ struct RunProperties {
 /// InputError.
 void check_truth(const Study& study, const Row& row, const RunProperties* properties);
 
-/// Returns the tables of the scene's probes in a finished run; nothing if one is missing.
+/// Returns the tables of a finished run: history.csv, without a name, and those of the scene's
+/// probes; nothing if one is missing.
 std::optional<std::vector<PlannedTable>> tables_in(const std::filesystem::path& run_directory,
                                                    const Scene& scene);
 
-/// Compares the tables of a finished run's probes with the run's list of files. Returns the first
+/// Compares the tables of a finished run with the run's list of files. Returns the first
 /// difference, as "probes/point.csv has changed"; empty if there is none.
 std::string changed_table(const std::filesystem::path& run_directory, const Scene& scene);
 

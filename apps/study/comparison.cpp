@@ -14,7 +14,8 @@ namespace {
 
 struct ComparisonEntry {
   struct Options {
-    std::string probe, column;
+    std::optional<std::string> probe;
+    std::string column;
     std::optional<Coordinate> along;
     Reduction reduce = Reduction::none;
     std::optional<std::string> truth, over;
@@ -23,7 +24,9 @@ struct ComparisonEntry {
   };
   static Schema<Options> schema() {
     return Schema<Options>("", "")
-        .add<&Options::probe>("probe", "", "name of a probe of the scene")
+        .add<&Options::probe>(
+            "probe", "",
+            "name of a probe of the scene; left out: history.csv, the energies of the run")
         .add<&Options::column>("column", "",
                                "of its table; what stands from \"@\" on may be left out")
         .add<&Options::along>(
@@ -177,7 +180,7 @@ std::vector<Comparison> read_comparisons(const Json& given, const std::vector<Tr
     const auto options =
         reader.read<ComparisonEntry>(item.value(), comparison.pointer, {"at", "where"});
     if (!options) continue;
-    comparison.probe = options->probe;
+    comparison.probe = options->probe.value_or("");
     comparison.column = options->column;
     comparison.along = options->along;
     comparison.reduction = options->reduce;

@@ -1,4 +1,4 @@
-// The comparisons of a study: columns of the runs' probes against the truth.
+// The comparisons of a study: columns of the runs' tables against the truth.
 #pragma once
 
 #include <study/curve.hpp>
@@ -13,7 +13,7 @@ inline constexpr std::string_view coordinate_names[] = {"x", "y", "z"};
 /// counterpart in the truth.
 struct Comparison {
   std::string pointer, name;
-  std::string probe;  ///< name of the probe
+  std::string probe;  ///< name of the probe; empty: the history of the run
   /// Column of the probe's table, with or without the place of a particle, "@(x y z)".
   std::string column;
   /// Compares the last row of the columns of many particles over this coordinate of their places.
@@ -30,6 +30,9 @@ struct Comparison {
   std::vector<RowFilter> where;  ///< in addition to the filters of the truth
   double scale = 1;              ///< the truth times this number is in the SI unit of the run
 
+  /// The file of a run that has the column, in the folder of the run, and its name in messages.
+  std::string file() const { return probe.empty() ? "history.csv" : "probes/" + probe + ".csv"; }
+  std::string table() const { return probe.empty() ? "history.csv" : "probe " + probe; }
   bool has_place() const { return at || at_column; }
 };
 

@@ -66,7 +66,7 @@ class Evaluation {
   void observe(std::size_t r) {
     const bool number = truth_of(rows_[r]).kind == Truth::Kind::numbers;
     for (const Comparison& comparison : study_.comparisons) {
-      const auto name = std::filesystem::path("probes") / (comparison.probe + ".csv");
+      const std::filesystem::path name = comparison.file();
       const auto file =
           read_folder_file(run_directory(directory_, rows_[r].run, 1), name, largest_table);
       if (!file || !file->refusal.empty())

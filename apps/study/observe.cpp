@@ -44,7 +44,7 @@ std::string column_fault(const Comparison& comparison, const std::vector<std::st
     if (const std::string name = column_name(column); names.empty() || names.back() != name)
       names.push_back(name);
   if (found.empty())
-    return fmt::format("a column of probe {}: {}", comparison.probe, fmt::join(names, ", ")) +
+    return fmt::format("a column of {}: {}", comparison.table(), fmt::join(names, ", ")) +
            did_you_mean(comparison.column, names);
   if (!comparison.along)
     return found.size() == 1 ? ""
@@ -64,7 +64,7 @@ Curve observed_curve(const Comparison& comparison, const CsvTable& table) {
   if (const std::string fault = column_fault(comparison, table.columns); !fault.empty())
     throw std::runtime_error("expected " + fault);
   if (table.rows.empty())
-    throw std::runtime_error(fmt::format("the table of probe {} has no rows", comparison.probe));
+    throw std::runtime_error(fmt::format("the table of {} has no rows", comparison.table()));
   const auto columns = columns_of(comparison, table.columns);
   Curve curve;
   if (comparison.along) {

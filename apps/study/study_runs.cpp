@@ -2,6 +2,7 @@
 #include <base/folder_file.hpp>
 #include <plan/plan.hpp>
 #include <process/lack_of_memory.hpp>
+#include <run/history.hpp>
 #include <run/interrupt.hpp>
 #include <run/occupancy.hpp>
 #include <run/run.hpp>
@@ -197,6 +198,7 @@ class StudyRuns {
     forget_lack_of_memory();
     try {
       const auto plan = make_plan(std::move(scene), threads(point));
+      plan->tables.push_back({"", history_columns(*plan->model)});
       return RunProperties{std::move(plan->tables), plan->end_time(),
                            plan->stages.empty() ? 0 : plan->stages.back().plan.time_step};
     } catch (const OutsideError&) {

@@ -5,13 +5,7 @@
 
 namespace hyperlattice {
 
-void History::archive(Archive& archive) {
-  archive(last_);
-  archive(has_record_);
-  archive(largest_relative_error_);
-}
-
-void History::begin() {
+std::vector<std::string> history_columns(const Model& model) {
   std::vector<std::string> columns{"time",
                                    "step",
                                    "kinetic",
@@ -28,10 +22,18 @@ void History::begin() {
                                    "momentum_z",
                                    "broken_open",
                                    "broken_closed"};
-  if (has_cracks_) columns.insert(columns.end(), {"surface_energy", "crack_area"});
-  for (const Load& load : loads_) columns.push_back("work_" + load.stage->name);
-  table_ = &folder_.table("history.csv", columns);
+  if (!model.cohesive.empty()) columns.insert(columns.end(), {"surface_energy", "crack_area"});
+  for (const Load& load : model.loads) columns.push_back("work_" + load.stage->name);
+  return columns;
 }
+
+void History::archive(Archive& archive) {
+  archive(last_);
+  archive(has_record_);
+  archive(largest_relative_error_);
+}
+
+void History::begin() { table_ = &folder_.table("history.csv", history_columns(model_)); }
 
 void History::take(const Record& record) {
   last_ = record;

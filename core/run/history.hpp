@@ -17,10 +17,13 @@ struct Record {
   CrackSurface cracks;
 };
 
+/// Returns the names of the columns of history.csv in a run of this model.
+std::vector<std::string> history_columns(const Model& model);
+
 class History {
  public:
   History(RunFolder& folder, const Model& model)
-      : folder_(folder), loads_(model.loads), has_cracks_(!model.cohesive.empty()) {}
+      : folder_(folder), model_(model), has_cracks_(!model.cohesive.empty()) {}
   void archive(Archive& archive);
   /// Begins the table, or continues it. Throws OutsideError if the disk refuses.
   void begin();
@@ -39,7 +42,7 @@ class History {
 
  private:
   RunFolder& folder_;
-  const LoadSet& loads_;
+  const Model& model_;
   const bool has_cracks_;
   Table* table_ = nullptr;
   Record last_;

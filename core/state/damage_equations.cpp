@@ -47,14 +47,28 @@ double DamageEquations::solve(const DamageBounds& bounds) {
     double excess;  ///< of growth over the wanted one, relative
     bool known = false;
   } low{bounds.least_factor, -1}, high{bounds.most_factor, 1};
+  // d = 1 solves the equations under any load. So a search that has gone too far goes on from the
+  // damage below it: from there growth is the least.
+  std::vector<double> below(all_.size());
+  for (std::size_t n = 0; n < all_.size(); ++n) below[n] = all_[n].start;
+  bool from_below = false;
   // At rest the factor is 1.
   double factor = std::clamp(1.0, low.factor, high.factor), step = 0.01;
   for (int n = 0; n < tries; ++n) {
-    const double excess = solve(factor) / bounds.most_growth - 1;
+    double excess = solve(factor) / bounds.most_growth - 1;
+    if (excess > nearly && !from_below) {
+      from_below = true;
+      for (std::size_t e = 0; e < all_.size(); ++e) damage_[all_[e].record] = below[e];
+      excess = solve(factor) / bounds.most_growth - 1;
+    }
     if (std::abs(excess) < nearly || (excess < 0 && factor >= high.factor) ||
         (excess > 0 && factor <= low.factor))
       return factor;
     (excess < 0 ? low : high) = {factor, excess, true};
+    for (std::size_t e = 0; e < all_.size(); ++e) {
+      double& damage = damage_[all_[e].record];
+      (excess < 0 ? below[e] : damage) = excess < 0 ? damage : below[e];
+    }
     if (low.known && high.known) {  // a secant, or halves where nothing grows at the lower end
       const double part =
           low.excess > -1 ? std::clamp(low.excess / (low.excess - high.excess), 0.02, 0.98) : 0.5;

@@ -305,6 +305,10 @@ TEST_F(StudyCommand, RefusesWhatDoesNotFitTogether) {
   expect_refused(file, {"/compare/upper/column: \"displacement_y\": expected a column of probe "
                         "upper: time, displacement_z"});
   file = swinging_pair();
+  file["compare"]["upper"].erase("probe");
+  expect_refused(file, {"/compare/upper/column: \"displacement_z\": expected a column of "
+                        "history.csv: time, step, kinetic"});
+  file = swinging_pair();
   file["truth"].erase(1);
   expect_refused(file, {"expected a truth for every run", "expected a truth for every run",
                         "expected a truth for every run"});

@@ -1,4 +1,5 @@
 // Principal values and the scalar equation of damage, against their definitions.
+#include <state/damage_equations.hpp>
 #include <state/damage_growth.hpp>
 
 #include <gtest/gtest.h>
@@ -85,6 +86,20 @@ TEST(DamageRate, IsZeroBelowTheSurface) {
   EXPECT_EQ(damage_rate(of), 0);
   of.drive = 1.001;
   EXPECT_GT(damage_rate(of), 0);
+}
+
+// With A below 1 damage has no stable value between 0 and 1 under a given strain, and 1 solves its
+// equation under any. A search that has met it must find the surface all the same.
+TEST(DamageEquations, FindTheSurfaceFromDamageThatIsComplete) {
+  for (const double guess : {0.0, 1.0}) {
+    std::vector<double> damage(3, guess);
+    DamageEquations equations(damage);
+    for (std::uint32_t n = 0; n < 3; ++n) {
+      equations.add({n, 0, 0.8, 1.44});
+      equations.add_other(n == 0 ? 1 : 0, 0.5);
+    }
+    EXPECT_NEAR(equations.solve({0, 2, 0.002}), 1 / 1.2, 1e-4) << guess;
+  }
 }
 
 }  // namespace damage_growth_test

@@ -209,6 +209,41 @@ TEST(RegionProbe, LeavesOutParticlesWithoutAValue) {
   for (const double value : probe.sample(body.at(infinity), 3)) EXPECT_EQ(value, infinity);
 }
 
+TEST(ExtentProbe, SaysWhereAQuantityExceedsItsBound) {
+  FakeBody body({6, 2, 1});
+  // u_x = t (x - l) for small t: above 2 l t for the places 3.5 l to 5.5 l.
+  const double t = 1e-9, l = 1e-3;
+  const auto options = [&](double above) {
+    return nlohmann::json{{"component", "x"}, {"above", above}, {"from", {1e-3, 0.0, 0.5e-3}}};
+  };
+  Plugin probe("probes.extent", options(2 * l * t));
+  const auto columns = probe.begin_probe(body.context("."), body.at(0));
+  ASSERT_EQ(columns.size(), 13u);
+  EXPECT_EQ(columns[3], "x_max");
+  EXPECT_EQ(columns[10], "distance_mean");
+  const auto row = probe.sample(body.at(t), 13);
+  const std::vector<double> expected{6, 3.5 * l, 2.5 * l, 4.5 * l,  // count, x
+                                     l, 0.5 * l, 1.5 * l,           // y
+                                     0, 0,       0};
+  for (std::size_t n = 0; n < expected.size(); ++n) EXPECT_NEAR(row[n], expected[n], 1e-15) << n;
+  EXPECT_NEAR(row[11], std::hypot(2.5, 0.5) * l, 1e-15);
+  EXPECT_NEAR(row[12], std::hypot(4.5, 1.5) * l, 1e-15);
+  nlohmann::json oblique = options(2 * l * t);
+  oblique["along"] = {0.0, -2.0, 0.0};
+  Plugin turned("probes.extent", oblique);
+  EXPECT_EQ(turned.begin_probe(body.context("."), body.at(0)).size(), 16u);
+  EXPECT_NEAR(turned.sample(body.at(t), 16)[15], -0.5 * l, 1e-15);
+  Plugin nowhere("probes.extent", options(1));
+  nowhere.begin_probe(body.context("."), body.at(0));
+  EXPECT_EQ(nowhere.sample(body.at(t), 13), std::vector<double>(13, 0));
+}
+
+TEST(ExtentProbe, RefusesAVectorWithoutAComponent) {
+  EXPECT_EQ(Plugin("probes.extent", {{"above", 1.0}}).faults(),
+            std::vector<std::string>{"component: a component of \"displacement\": x, y, z, "
+                                     "magnitude, radial"});
+}
+
 /// The mean place of a region's particles at rest, m.
 Vec3 mean_place(FakeBody& body, const std::vector<Particle>& particles) {
   Vec3 sum;

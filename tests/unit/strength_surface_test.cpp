@@ -240,6 +240,9 @@ TEST(Cohesive, BodiesThatDamageDoesNotKnowAreRefused) {
   expect_in(faults_of(stage("lattices.bcc", {{"spacing", 1}, {"shape", box({}, {6, 6, 6})}}) +
                       elastic(Keys{{"poisson", 0.25}} + failure)),
             {"the cubic lattice"});
+  expect_in(faults_of(stage("lattices.random", {{"spacing", 1}, {"shape", box({}, {6, 6, 6})}}) +
+                      elastic(failure)),
+            {"a list of springs has no field of damage"});
   expect_in(refusal({{"failure", Json::array({surface_stage("failures.cohesive"),
                                               surface_stage("failures.von_mises")})}}),
             {"/failure/1", "one strength surface"});
