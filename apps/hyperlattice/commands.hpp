@@ -30,6 +30,8 @@ Command analyze_command(CLI::App& program);
 Command calibrate_command(CLI::App& program);
 Command study_command(CLI::App& program);
 Command report_command(CLI::App& program);
+Command completion_command(CLI::App& program);
+Command manual_command(CLI::App& program);
 
 /// Writes the project of a plugin of this type into a new folder, by default ./<name>, or, if
 /// `folder` is the name of a source (my_law.cpp), one file. Throws InputError if the family is

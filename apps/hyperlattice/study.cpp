@@ -73,7 +73,7 @@ Command study_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "study",
       "error against run time: run a scene over a grid of settings and compare it with the truth");
-  command->add_option("STUDY", a->study, "the study file (JSON)")->required();
+  command->add_option("STUDY", a->study, "the study file (JSON)")->required()->type_name("FILE");
   command
       ->add_option("--set", a->settings,
                    "replace a value of the study, e.g. --set /repeats=1; may be repeated")
