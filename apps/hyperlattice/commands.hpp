@@ -65,6 +65,16 @@ struct ThreadArgument {
   Threads count(int node_ranks = 1) const;
 };
 
+/// The argument --plugin-path.
+struct PluginPathArgument {
+  std::vector<std::filesystem::path> paths;  ///< folders, libraries, source files
+
+  void declare(CLI::App& command);
+  /// Returns the paths with the library of each source file in its place. Throws InputError if a
+  /// source does not compile, OutsideError if there is no compiler.
+  std::vector<std::filesystem::path> libraries() const;
+};
+
 /// The arguments that `run` and `plan` share.
 struct SceneArguments {
   std::filesystem::path scene;

@@ -2,7 +2,6 @@
 // tests components.
 #include "commands.hpp"
 
-#include <host/source_plugin.hpp>
 #include <scene/json.hpp>
 
 #include <spdlog/fmt/fmt.h>
@@ -16,7 +15,7 @@ namespace {
 
 struct Arguments {
   std::vector<std::string> names;
-  std::vector<std::filesystem::path> folders;
+  PluginPathArgument plugin_paths;
   bool why = false, json = false, test = false, only_names = false;
   std::filesystem::path pictures;
   std::string new_type;
@@ -98,23 +97,8 @@ void make_folder(const std::filesystem::path& pictures) {
       fmt::format("cannot create the folder {}: {}", pictures.string(), error.message()));
 }
 
-/// Returns the paths with the library of each source file in its place. Throws InputError if a
-/// source does not compile.
-std::vector<std::filesystem::path> with_libraries(std::vector<std::filesystem::path> paths) {
-  for (std::filesystem::path& path : paths) {
-    if (!is_plugin_source(path) || !std::filesystem::is_regular_file(path)) continue;
-    const CompiledPlugin compiled = compile_plugin(path);
-    if (compiled.problem == CompiledPlugin::Problem::source)
-      throw InputError({{"--plugin-path", path.string(),
-                         "a source file that can be compiled; " + compiled.sentence}});
-    if (compiled.problem == CompiledPlugin::Problem::outside) throw OutsideError(compiled.sentence);
-    path = compiled.library;
-  }
-  return paths;
-}
-
 int show(const Arguments& arguments) {
-  Host host(with_libraries(arguments.folders));
+  Host host(arguments.plugin_paths.libraries());
   if (!arguments.new_type.empty()) {
     if (const Component* taken = host.find(arguments.new_type))
       throw InputError({{"--new", arguments.new_type,
@@ -153,13 +137,7 @@ Command plugins_command(CLI::App& program) {
       "list what a scene can name, document or test components, or begin one of your own");
   command->add_option("NAME", arguments->names, "components, e.g. loads.blast; all if left out")
       ->type_name("COMPONENT");
-  command
-      ->add_option(
-          "--plugin-path", arguments->folders,
-          "a folder to look into before all others, a library or a source file; may be given "
-          "several times")
-      ->type_name("PATH")
-      ->allow_extra_args(false);
+  arguments->plugin_paths.declare(*command);
   command->add_flag("--why", arguments->why,
                     "also every place searched, and why a library was refused");
   command->add_flag("--json", arguments->json, "print it for machines");

@@ -69,6 +69,7 @@ def prepare(folder):
         (folder / "bin/python3").chmod(0o755)
         (folder / "work/docs").symlink_to(source / "docs")
     else:
+        (folder / "bin/python3").symlink_to("/usr/bin/python3")  # has the modules of Debian's packages
         scene = BLOCK.search((source / "README.md").read_text(encoding="utf-8"), 0)
         while '"format"' not in scene[2]:
             scene = BLOCK.search(scene.string, scene.end())
