@@ -49,6 +49,7 @@ int run_study(Arguments a) {
   if (!a.target_error.empty()) study.target_error = read_target(a.target_error);
   Faults faults;
   for (const auto& file : a.peers) append_peers(study.peers, file, "--peers", faults);
+  check_sweep(study, "--target-error", "--peers", faults);
   faults.throw_if_any();
   StudyRunOptions& options = a.options;
   options.threads = a.threads.count();
