@@ -11,6 +11,7 @@ and the files that other commands name must exist.
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -36,6 +37,12 @@ esac
 """
 
 
+def has_mpi():
+    """Returns whether several processes can run a scene."""
+    names = subprocess.run([program, "plugins", "--names"], check=True, capture_output=True, text=True).stdout
+    return "engines.mpi" in names.split() and shutil.which("mpirun") is not None
+
+
 def script_of(page):
     """Returns the script of a page, the number of its blocks with commands, and the blocks that are left out."""
     text, files, commands, left_out = page.read_text(encoding="utf-8"), [], [], []
@@ -48,6 +55,8 @@ def script_of(page):
             left_out.append(f"{page.relative_to(source)}:{line}: {skipped[1]}")
         elif name:
             files.append(f"cat > {name[-1]} <<'END OF FILE'\n{block[2]}END OF FILE\n")
+        elif block[1] in ("", "sh") and re.search(r"^mpirun ", block[2], re.M) and not has_mpi():
+            left_out.append(f"{page.relative_to(source)}:{line}: no mpirun here, or no engines.mpi")
         elif block[1] in ("", "sh"):
             commands.append(f"echo '== {page.relative_to(source)}:{line}'\n{block[2]}")
     return "set -eu -o pipefail\n" + "".join(files + commands), len(commands), left_out
