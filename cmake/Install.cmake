@@ -22,7 +22,7 @@ install(FILES README.md CONTRIBUTING.md CHANGELOG.md CITATION.cff DESTINATION ${
 foreach(folder docs scenes)
   if(IS_DIRECTORY ${PROJECT_SOURCE_DIR}/${folder})
     install(DIRECTORY ${folder}/ DESTINATION ${share}/${folder} FILES_MATCHING PATTERN "*.md" PATTERN "*.csv" PATTERN "*.json" PATTERN "*.png" PATTERN "*.svg"
-            PATTERN "*.py" PATTERN "*.ipynb")
+            PATTERN "*.py" PATTERN "*.ipynb" PATTERN site EXCLUDE)
   endif()
 endforeach()
 

@@ -85,14 +85,20 @@ Command analyze_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "analyze", "elasticity, stability and time step of a lattice; the map of cubic crystals");
   a->declare(*command);
-  command->add_option(
-      "--dispersion", a->dispersion,
-      "write omega / sqrt(k/m) of the waves along [100], [110] and [111] to this CSV file");
-  command->add_option(
-      "--crystals", a->crystals,
-      "read cubic crystals from this CSV file and find lattices with their elastic constants");
-  command->add_option("--plot", a->plot,
-                      "draw the map of Poisson ratios (figure 4) to this SVG file; needs gnuplot");
+  command
+      ->add_option(
+          "--dispersion", a->dispersion,
+          "write omega / sqrt(k/m) of the waves along [100], [110] and [111] to this CSV file")
+      ->type_name("FILE");
+  command
+      ->add_option(
+          "--crystals", a->crystals,
+          "read cubic crystals from this CSV file and find lattices with their elastic constants")
+      ->type_name("FILE");
+  command
+      ->add_option("--plot", a->plot,
+                   "draw the map of Poisson ratios (figure 4) to this SVG file; needs gnuplot")
+      ->type_name("FILE");
   command->add_flag("--json", a->json, "print it for machines");
   return {command, [a] { return analyze(*a); }};
 }

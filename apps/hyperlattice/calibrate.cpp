@@ -56,9 +56,11 @@ Command calibrate_command(CLI::App& program) {
   command->add_option("--young", a->task.choice.young, "Young's modulus in Pa; gives k / l");
   command->add_option("--spacing", a->task.choice.spacing,
                       "lattice constant l in m; gives k, with --young");
-  command->add_option(
-      "--parameters", a->task.choice.parameters,
-      "closed_form: exact for the infinite lattice (default); paper: polynomials (11) and (13)");
+  command
+      ->add_option(
+          "--parameters", a->task.choice.parameters,
+          "closed_form: exact for the infinite lattice (default); paper: polynomials (11) and (13)")
+      ->type_name("closed_form|paper");
   command
       ->add_option("--measure", a->task.measure,
                    "also measure it by a compression test of N x N x N particles")
@@ -72,8 +74,10 @@ Command calibrate_command(CLI::App& program) {
   command->add_option("--each", a->task.each,
                       "a curve for each value of an option of the lattice: figure 3 is --each "
                       "coordination=8.4,13.2");
-  command->add_option("--plot", a->plot,
-                      "draw the curve (figures 2 and 3) to this SVG file; needs gnuplot");
+  command
+      ->add_option("--plot", a->plot,
+                   "draw the curve (figures 2 and 3) to this SVG file; needs gnuplot")
+      ->type_name("FILE");
   a->threads.declare(*command);
   command->add_flag("--json", a->json, "print it for machines");
   return {command, [a] { return calibrate(*a); }};

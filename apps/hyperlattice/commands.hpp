@@ -30,6 +30,8 @@ Command analyze_command(CLI::App& program);
 Command calibrate_command(CLI::App& program);
 Command study_command(CLI::App& program);
 Command report_command(CLI::App& program);
+Command completion_command(CLI::App& program);
+Command manual_command(CLI::App& program);
 
 /// Writes the project of a plugin of this type into a new folder, by default ./<name>, or, if
 /// `folder` is the name of a source (my_law.cpp), one file. Throws InputError if the family is
@@ -61,6 +63,16 @@ struct ThreadArgument {
   void declare(CLI::App& command);
   /// Returns the threads of each of so many ranks on this machine.
   Threads count(int node_ranks = 1) const;
+};
+
+/// The argument --plugin-path.
+struct PluginPathArgument {
+  std::vector<std::filesystem::path> paths;  ///< folders, libraries, source files
+
+  void declare(CLI::App& command);
+  /// Returns the paths with the library of each source file in its place. Throws InputError if a
+  /// source does not compile, OutsideError if there is no compiler.
+  std::vector<std::filesystem::path> libraries() const;
 };
 
 /// The arguments that `run` and `plan` share.

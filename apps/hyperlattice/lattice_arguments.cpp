@@ -4,13 +4,19 @@
 namespace hyperlattice {
 
 void LatticeArguments::declare(CLI::App& command) {
-  command.add_option("--lattice", lattice,
-                     std::string("a lattice component (default: ") + bundled::cubic + ")");
-  command.add_option("--option", options,
-                     "an option of the lattice component as name=value, such as coordination=13.2; "
-                     "may be repeated");
-  command.add_option("--membrane", membrane.membrane,
-                     "none, I, II, III, IV, I-m, or free with the ratios below");
+  command
+      .add_option("--lattice", lattice,
+                  std::string("a lattice component (default: ") + bundled::cubic + ")")
+      ->type_name("LATTICE");
+  command
+      .add_option("--option", options,
+                  "an option of the lattice component as name=value, such as coordination=13.2; "
+                  "may be repeated")
+      ->type_name("NAME=VALUE");
+  command
+      .add_option("--membrane", membrane.membrane,
+                  "none, I, II, III, IV, I-m, or free with the ratios below")
+      ->type_name("none|I|II|III|IV|I-m|free");
   command.add_option("--poisson", membrane.poisson,
                      "Poisson ratio along [100]; gives lambda, or without a membrane K_v of the "
                      "volumetric energy");

@@ -42,7 +42,7 @@ void ThreadArgument::declare(CLI::App& command) {
 Threads ThreadArgument::count(int node_ranks) const { return chosen_threads(threads, node_ranks); }
 
 void SceneArguments::declare(CLI::App& command) {
-  command.add_option("SCENE", scene, "the scene file (JSON)")->required();
+  command.add_option("SCENE", scene, "the scene file (JSON)")->required()->type_name("FILE");
   command
       .add_option(
           "--set", settings,
@@ -78,6 +78,7 @@ Command plan_command(CLI::App& program) {
       ->add_option("--machine", arguments->machine,
                    "JSON file with latency (s) and bandwidth (bytes/s) of messages, and memory "
                    "(bytes) of a rank")
+      ->type_name("FILE")
       ->needs("--ranks");
   return {command, [arguments] {
             Host host;

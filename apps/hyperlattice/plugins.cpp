@@ -2,7 +2,6 @@
 // tests components.
 #include "commands.hpp"
 
-#include <host/source_plugin.hpp>
 #include <scene/json.hpp>
 
 #include <spdlog/fmt/fmt.h>
@@ -16,8 +15,8 @@ namespace {
 
 struct Arguments {
   std::vector<std::string> names;
-  std::vector<std::filesystem::path> folders;
-  bool why = false, json = false, test = false;
+  PluginPathArgument plugin_paths;
+  bool why = false, json = false, test = false, only_names = false;
   std::filesystem::path pictures;
   std::string new_type;
   std::filesystem::path out;
@@ -98,29 +97,18 @@ void make_folder(const std::filesystem::path& pictures) {
       fmt::format("cannot create the folder {}: {}", pictures.string(), error.message()));
 }
 
-/// Returns the paths with the library of each source file in its place. Throws InputError if a
-/// source does not compile.
-std::vector<std::filesystem::path> with_libraries(std::vector<std::filesystem::path> paths) {
-  for (std::filesystem::path& path : paths) {
-    if (!is_plugin_source(path) || !std::filesystem::is_regular_file(path)) continue;
-    const CompiledPlugin compiled = compile_plugin(path);
-    if (compiled.problem == CompiledPlugin::Problem::source)
-      throw InputError({{"--plugin-path", path.string(),
-                         "a source file that can be compiled; " + compiled.sentence}});
-    if (compiled.problem == CompiledPlugin::Problem::outside) throw OutsideError(compiled.sentence);
-    path = compiled.library;
-  }
-  return paths;
-}
-
 int show(const Arguments& arguments) {
-  Host host(with_libraries(arguments.folders));
+  Host host(arguments.plugin_paths.libraries());
   if (!arguments.new_type.empty()) {
     if (const Component* taken = host.find(arguments.new_type))
       throw InputError({{"--new", arguments.new_type,
                          fmt::format("a name that no component has yet; this one is in {}",
                                      taken->path.string())}});
     return write_new_plugin(arguments.new_type, arguments.out);
+  }
+  if (arguments.only_names) {
+    for (const std::string& type : host.known_types()) std::cout << type << '\n';
+    return exit_done;
   }
   const auto components = named(host, arguments);
   if (arguments.test && !arguments.pictures.empty()) make_folder(arguments.pictures);
@@ -147,17 +135,14 @@ Command plugins_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "plugins",
       "list what a scene can name, document or test components, or begin one of your own");
-  command->add_option("NAME", arguments->names, "components, e.g. loads.blast; all if left out");
-  command
-      ->add_option(
-          "--plugin-path", arguments->folders,
-          "a folder to look into before all others, a library or a source file; may be given "
-          "several times")
-      ->type_name("DIR")
-      ->allow_extra_args(false);
+  command->add_option("NAME", arguments->names, "components, e.g. loads.blast; all if left out")
+      ->type_name("COMPONENT");
+  arguments->plugin_paths.declare(*command);
   command->add_flag("--why", arguments->why,
                     "also every place searched, and why a library was refused");
   command->add_flag("--json", arguments->json, "print it for machines");
+  command->add_flag("--names", arguments->only_names,
+                    "only the names of all components, from the names of their files");
   command->add_flag(
       "--test", arguments->test,
       "run components through the contract of their family; exit code 3 if a check failed");
@@ -165,13 +150,16 @@ Command plugins_command(CLI::App& program) {
       ->add_option("--pictures", arguments->pictures,
                    "with --test: folder for a picture of each law, force against elongation")
       ->type_name("DIR");
-  command->add_option(
-      "--new", arguments->new_type,
-      "write a project of your own for a plugin of this type, e.g. failures.my_law");
-  command->add_option(
-      "--out", arguments->out,
-      "with --new: the folder to write, ./<name> if left out; or one source file, such as "
-      "my_law.cpp");
+  command
+      ->add_option("--new", arguments->new_type,
+                   "write a project of your own for a plugin of this type, e.g. failures.my_law")
+      ->type_name("FAMILY.NAME");
+  command
+      ->add_option(
+          "--out", arguments->out,
+          "with --new: the folder to write, ./<name> if left out; or one source file, such as "
+          "my_law.cpp")
+      ->type_name("PATH");
   return {command, [arguments] { return show(*arguments); }};
 }
 

@@ -24,7 +24,9 @@ Command report_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "report",
       "one page (HTML, with all that it needs) of one or more runs, also of runs that go on");
-  command->add_option("DIR", arguments->folders, "folders that runs or studies left")->required();
+  command->add_option("DIR", arguments->folders, "folders that runs or studies left")
+      ->required()
+      ->type_name("FOLDER");
   command
       ->add_option("--out", arguments->file,
                    "the page (default: DIR/report.html of one folder, report.html here of several)")

@@ -49,6 +49,7 @@ int run_study(Arguments a) {
   if (!a.target_error.empty()) study.target_error = read_target(a.target_error);
   Faults faults;
   for (const auto& file : a.peers) append_peers(study.peers, file, "--peers", faults);
+  check_sweep(study, "--target-error", "--peers", faults);
   faults.throw_if_any();
   StudyRunOptions& options = a.options;
   options.threads = a.threads.count();
@@ -73,7 +74,7 @@ Command study_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "study",
       "error against run time: run a scene over a grid of settings and compare it with the truth");
-  command->add_option("STUDY", a->study, "the study file (JSON)")->required();
+  command->add_option("STUDY", a->study, "the study file (JSON)")->required()->type_name("FILE");
   command
       ->add_option("--set", a->settings,
                    "replace a value of the study, e.g. --set /repeats=1; may be repeated")

@@ -89,6 +89,7 @@ std::string fault_of_times(const Comparison& comparison, const Truth& truth, con
 }  // namespace
 
 void check_truth(const Study& study, const Row& row, const RunProperties* properties) {
+  if (study.is_sweep()) return;
   const Truth& truth = *std::find_if(study.truths.begin(), study.truths.end(),
                                      [&](const Truth& t) { return t.when.holds(row.choice); });
   if (truth.kind == Truth::Kind::finest) return;

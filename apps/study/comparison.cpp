@@ -123,6 +123,8 @@ void check(const Comparison& comparison, bool names_truth, const Truth& truth, F
                                  did_you_mean(comparison.truth, names));
 }
 
+constexpr const char* needless = "nothing here, because the study has no truth";
+
 /// Adds faults for keys that are used only if the truth is a table.
 void check_table_keys(const Json& given, const Comparison& comparison,
                       const std::vector<Truth>& truths, Faults& faults) {
@@ -132,7 +134,17 @@ void check_table_keys(const Json& given, const Comparison& comparison,
   for (const char* key : {"at", "where", "over", "over_scale"})
     if (given.contains(key))
       faults.add(member(comparison.pointer, key), shown(given[key]),
-                 "nothing here, because the truth is no table");
+                 truths.empty() ? needless : "nothing here, because the truth is no table");
+}
+
+/// Adds faults for what a quantity of a study without a truth cannot have.
+void check_value(const Json& given, const Comparison& comparison, Faults& faults) {
+  for (const char* key : {"truth", "scale"})
+    if (given.contains(key))
+      faults.add(member(comparison.pointer, key), shown(given[key]), needless);
+  if (comparison.along && comparison.reduction == Reduction::none)
+    faults.add(comparison.pointer + "/along", "",
+               "\"reduce\" with it, because a study without a truth shows one number");
 }
 
 }  // namespace
@@ -189,6 +201,7 @@ std::vector<Comparison> read_comparisons(const Json& given, const std::vector<Tr
     comparison.over_scale = options->over_scale;
     comparison.scale = options->scale;
     check_table_keys(item.value(), comparison, truths, faults);
+    if (truths.empty()) check_value(item.value(), comparison, faults);
     for (const Truth& truth : truths) check(comparison, options->truth.has_value(), truth, faults);
     comparisons.push_back(std::move(comparison));
   }

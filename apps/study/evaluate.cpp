@@ -32,6 +32,7 @@ class Evaluation {
   std::vector<LimitGap> run() {
     for (std::size_t r = 0; r < rows_.size(); ++r)
       if (rows_[r].is_done()) guarded(rows_[r], [&] { observe(r); });
+    if (study_.is_sweep()) return {};
     for (std::size_t r = 0; r < rows_.size(); ++r)
       if (rows_[r].is_done()) guarded(rows_[r], [&] { compare(r); });
     return compare_limits();
@@ -64,7 +65,7 @@ class Evaluation {
   }
 
   void observe(std::size_t r) {
-    const bool number = truth_of(rows_[r]).kind == Truth::Kind::numbers;
+    const bool number = study_.is_sweep() || truth_of(rows_[r]).kind == Truth::Kind::numbers;
     for (const Comparison& comparison : study_.comparisons) {
       const std::filesystem::path name = comparison.file();
       const auto file =
@@ -79,6 +80,7 @@ class Evaluation {
                                       : comparison.reduction;
       curves_[r].push_back(
           {reduced(observed_curve(comparison, table), reduction), place_of(comparison, table)});
+      if (study_.is_sweep()) rows_[r].values.push_back(curves_[r].back().curve.values.back());
     }
   }
 

@@ -1,5 +1,6 @@
 #include <base/gnuplot.hpp>
 #include <study/perform.hpp>
+#include <study/sweep.hpp>
 
 #include <hyperlattice/files.hpp>
 
@@ -15,10 +16,11 @@ void write_results(const Study& study, const PerformedStudy& performed,
   write_file((directory / "study.csv").string(), study_csv(study, done.rows, findings));
   write_file((directory / "study.json").string(),
              json_text(study_json(study, done.rows, findings)));
-  const std::string script = study_script(study, done.rows, findings);
+  const std::string script =
+      study.is_sweep() ? sweep_script(study, done.rows) : study_script(study, done.rows, findings);
   if (script.empty()) return;
   try {
-    draw_svg(directory / "study.svg", script, 860, 620);
+    draw_svg(directory / "study.svg", script, 860, study.is_sweep() ? sweep_height(study) : 620);
   } catch (const OutsideError& error) {
     spdlog::warn("{}", error.what());  // only the picture is missing; the results are complete
   }

@@ -1,5 +1,6 @@
-#include <base/visible.hpp>
 #include <study/report.hpp>
+#include <study/sweep.hpp>
+#include <study/text_table.hpp>
 
 #include <spdlog/fmt/fmt.h>
 
@@ -10,9 +11,6 @@
 namespace hyperlattice::study {
 
 namespace {
-
-/// Returns the text without control characters that a terminal would act on.
-std::string shown_whole(const std::string& text) { return visible(text, std::string::npos); }
 
 std::string percent(double fraction) { return fmt::format("{:.3g} %", 100 * fraction); }
 
@@ -39,6 +37,7 @@ Json row_json(const Study& study, const Row& row, bool pareto) {
   json["steps"] = row.steps;
   if (study.refinement) json["size"] = row.numbers[*study.refinement].value_or(0);
   json["pareto"] = pareto;
+  if (study.is_sweep()) json["values"] = values_json(study, row);
   json["errors"] = Json::object();
   for (std::size_t c = 0; c < row.errors.size(); ++c)
     json["errors"][study.comparisons[c].name] = row.errors[c];
@@ -69,28 +68,6 @@ Json order_json(const Study& study, const ChoiceOrder& order) {
                              {"to", errors[n].size},
                              {"order", order.observed.pairs[n - 1]}});
   return json;
-}
-
-using Lines = std::vector<std::vector<std::string>>;
-
-/// Returns lines with aligned columns; the first `left` columns are flush left, the others flush
-/// right.
-std::string aligned(const Lines& lines, std::size_t left) {
-  std::vector<std::size_t> widths;
-  for (const auto& line : lines) {
-    widths.resize(std::max(widths.size(), line.size()));
-    for (std::size_t c = 0; c < line.size(); ++c) widths[c] = std::max(widths[c], line[c].size());
-  }
-  std::string text;
-  for (const auto& line : lines) {
-    std::string row;
-    for (std::size_t c = 0; c < line.size(); ++c)
-      row += c < left ? fmt::format("  {:<{}}", line[c], widths[c])
-                      : fmt::format("  {:>{}}", line[c], widths[c]);
-    row.erase(row.find_last_not_of(' ') + 1);
-    text += row + '\n';
-  }
-  return text;
 }
 
 std::string table_text(const Study& study, const std::vector<Row>& rows, const Findings& findings) {
@@ -251,7 +228,8 @@ std::string cheapest_sentence(const Study& study, const std::vector<Row>& rows,
 
 Json study_json(const Study& study, const std::vector<Row>& rows, const Findings& findings) {
   Json json = {{"title", study.title},
-               {"norm", norm_names[static_cast<std::size_t>(study.norm)]},
+               {"norm", study.is_sweep() ? Json(nullptr)
+                                         : Json(norm_names[static_cast<std::size_t>(study.norm)])},
                {"rows", Json::array()},
                {"orders", Json::array()}};
   for (std::size_t r = 0; r < rows.size(); ++r)
@@ -285,6 +263,7 @@ Json study_json(const Study& study, const std::vector<Row>& rows, const Findings
 }
 
 std::string study_csv(const Study& study, const std::vector<Row>& rows, const Findings& findings) {
+  if (study.is_sweep()) return sweep_csv(study, rows);
   std::string text;
   for (const Axis& axis : study.axes) text += axis.name + ',';
   text += "particles,steps,error,seconds,setup_seconds,pareto,status";
@@ -305,8 +284,10 @@ std::string study_csv(const Study& study, const std::vector<Row>& rows, const Fi
 }
 
 std::string study_text(const Study& study, const std::vector<Row>& rows, const Findings& findings) {
-  std::string text = (study.title.empty() ? "" : study.title + "\n\n") +
-                     table_text(study, rows, findings) + peers_text(study);
+  std::string text =
+      (study.title.empty() ? "" : study.title + "\n\n") +
+      (study.is_sweep() ? sweep_table(study, rows) : table_text(study, rows, findings)) +
+      peers_text(study);
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const auto same = [&](const Row& row) { return row.reason == rows[r].reason; };
     if (rows[r].reason.empty() || std::find_if(rows.begin(), rows.end(), same) !=

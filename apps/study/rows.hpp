@@ -21,6 +21,7 @@ struct Row {
   std::uint64_t particles = 0, steps = 0;
   std::vector<double> solve_seconds;  ///< s, for each repeat; without set-up and output
   double setup_seconds = 0;           ///< set-up time of the first repeat, s
+  std::vector<double> values;         ///< of a study without a truth: one for each comparison
   std::vector<double> errors;         ///< one for each comparison; empty if not known
   /// Largest of errors; with Norm::together_l2, the error of all together.
   std::optional<double> error;

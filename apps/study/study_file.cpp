@@ -9,6 +9,7 @@ namespace hyperlattice::study {
 namespace {
 
 constexpr std::string_view format = "hyperlattice-study/1";
+constexpr const char* needs_truth = "\"truth\" with it: a study without a truth has no errors";
 
 struct Heading {
   struct Options {
@@ -59,7 +60,7 @@ class StudyReader {
     const auto heading = reader_.read<Heading>(
         given_, "", {"$schema", "scene", "set", "vary", "exclude", "truth", "compare"});
     if (!given_.is_object()) return faults_.throw_if_any();
-    for (const char* key : {"scene", "vary", "truth", "compare"})
+    for (const char* key : {"scene", "vary", "compare"})
       if (!given_.contains(key))
         faults_.add(member("", key), "", fmt::format("\"{}\" (it is required, but missing)", key));
     if (given_.contains("scene")) read_scene_json(given_["scene"]);
@@ -71,6 +72,7 @@ class StudyReader {
       study_.comparisons = read_comparisons(given_["compare"], study_.truths, study_.axes, reader_);
     if (heading) take(*heading);
     check_finest();
+    if (!given_.contains("truth")) make_sweep();
     faults_.throw_if_any();
     for (const std::string& warning : faults_.warnings()) spdlog::warn("warning: {}", warning);
   }
@@ -156,6 +158,14 @@ class StudyReader {
           read_condition(list[n], member("/exclude", n), study_.axes, faults_));
   }
 
+  /// A study without a truth: its values are the same in every repeat.
+  void make_sweep() {
+    if (!given_.contains("repeats")) study_.repeats = 1;
+    check_sweep(study_, "/target_error", "/peers", faults_);
+    for (const char* key : {"error", "cases"})
+      if (given_.contains(key)) faults_.add(member("", key), shown(given_[key]), needs_truth);
+  }
+
   /// Adds a fault if an extrapolated truth has no refinement or too few sizes.
   void check_finest() {
     for (const Truth& truth : study_.truths) {
@@ -186,6 +196,13 @@ class StudyReader {
 };
 
 }  // namespace
+
+void check_sweep(const Study& study, const std::string& target, const std::string& peers,
+                 Faults& faults) {
+  if (!study.is_sweep()) return;
+  if (study.target_error) faults.add(target, fmt::format("{}", *study.target_error), needs_truth);
+  if (!study.peers.empty()) faults.add(peers, "", needs_truth);
+}
 
 Study read_study(const std::filesystem::path& file, const std::vector<std::string>& settings) {
   const std::string text = read_input_file(file, "STUDY", "the path of a study");

@@ -25,7 +25,15 @@ struct Study {
   std::int64_t repeats = 3;
   std::optional<double> target_error;
   std::vector<Peer> peers;
+
+  /// Whether the study has no truth: it then shows the values of the runs, not errors.
+  bool is_sweep() const { return truths.empty(); }
 };
+
+/// Adds a fault for each thing that needs a truth in a study without one. `target` and `peers`: the
+/// places of the target error and of the peers' tables.
+void check_sweep(const Study& study, const std::string& target, const std::string& peers,
+                 Faults& faults);
 
 /// Reads a study, applies the settings (`--set`) and checks it. Throws InputError with every fault.
 Study read_study(const std::filesystem::path& file, const std::vector<std::string>& settings);

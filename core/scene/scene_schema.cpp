@@ -2,6 +2,7 @@
 #include <geometry/primitives.hpp>
 #include <scene/common_options.hpp>
 #include <scene/cut_reader.hpp>
+#include <scene/examples.hpp>
 #include <scene/region_reader.hpp>
 #include <scene/scene.hpp>
 
@@ -87,6 +88,11 @@ Json option_schema(const Option& option) {
   value["description"] = option.unit.empty() ? std::string(option.help)
                                              : fmt::format("{} [{}]", option.help, option.unit);
   if (!option.fallback.empty()) value["default"] = Json::parse(option.fallback);
+  // Editors offer these values. A text, such as a name, is the user's own.
+  const bool is_free = option.choices.empty() &&
+                       (option.kind == OptionKind::text || option.kind == OptionKind::texts);
+  if (!option.example.empty() || (option.fallback.empty() && !is_free))
+    value["examples"] = Json::array({example_value(option, 0)});
   return value;
 }
 
@@ -132,7 +138,9 @@ Json object_schema(std::string_view description) {
 
 Json component_schema(const ComponentInfo& info) {
   Json object = object_schema(info.summary);
+  object["examples"] = Json::array({example_stage(info)});
   object["properties"]["type"] = or_variable({{"const", info.name}});
+  object["properties"]["type"]["description"] = info.summary;
   object["required"].push_back("type");
   declare(object, info.options, info.old_names);
   const OptionSet& common = common_options(info.family);
@@ -256,8 +264,11 @@ std::string scene_schema(const std::vector<const Component*>& components) {
                        {"minItems", 1},
                        {"allOf", {holds(Family::materials), holds(Family::solvers)}}}}}}};
   const Json file_names{
+      {"description", "files with parts of this scene, relative to it"},
+      {"examples", {"rock.json"}},
       {"anyOf", {{{"type", "string"}}, {{"type", "array"}, {"items", {{"type", "string"}}}}}}};
   Json named{{"type", "object"},
+             {"description", "regions by name, for the options of all stages"},
              {"propertyNames", {{"not", {{"enum", built_in_region_names()}}}}},
              {"additionalProperties", reference("region")}};
   const Json scene{
@@ -265,13 +276,21 @@ std::string scene_schema(const std::vector<const Component*>& components) {
       {"title", "Hyperlattice scene"},
       {"type", "object"},
       {"properties",
-       {{"$schema", {{"type", "string"}}},
+       {{"$schema",
+         {{"type", "string"}, {"description", "the place of this schema, for editors alone"}}},
         {"include", file_names},
         {"variables",
-         {{"type", "object"}, {"propertyNames", {{"pattern", "^[A-Za-z_][A-Za-z0-9_]*$"}}}}},
-        {"format", {{"const", "hyperlattice/1"}}},
-        {"title", {{"type", "string"}}},
-        {"plugins", {{"type", "array"}, {"items", {{"type", "string"}}}}},
+         {{"type", "object"},
+          {"description", "values by name; \"${name}\" in a text stands for the value"},
+          {"propertyNames", {{"pattern", "^[A-Za-z_][A-Za-z0-9_]*$"}}}}},
+        {"format", {{"const", "hyperlattice/1"}, {"description", "the kind of this file"}}},
+        {"title", {{"type", "string"}, {"description", "a line of text about the scene"}}},
+        {"plugins",
+         {{"type", "array"},
+          {"description",
+           "libraries, folders of libraries and source files of components, relative to the scene"},
+          {"examples", {Json::array({"my_law.cpp"})}},
+          {"items", {{"type", "string"}}}}},
         {"precision",
          {{"enum", precision_names},
           {"description", precision_help},

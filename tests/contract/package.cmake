@@ -41,7 +41,9 @@ if(engine)
   must_hold("${output}" "Depends:[^\n]*libopenmpi")
 endif()
 must_work(dpkg-deb --extract ${package} ${folder}/unpacked)
-foreach(file share/doc/hyperlattice/copyright share/hyperlattice/docs/guide/plugins.md include/hyperlattice/component.hpp)
+foreach(file share/doc/hyperlattice/copyright share/hyperlattice/docs/guide/plugins.md include/hyperlattice/component.hpp
+        share/man/man1/hyperlattice-run.1 share/bash-completion/completions/hyperlattice share/zsh/vendor-completions/_hyperlattice
+        share/fish/vendor_completions.d/hyperlattice.fish)
   if(NOT EXISTS ${folder}/unpacked/usr/${file})
     file(REMOVE_RECURSE ${folder})
     message(FATAL_ERROR "no ${file} in the package")

@@ -8,6 +8,46 @@ using nlohmann::json;
 using Words = std::vector<std::string>;
 namespace fs = std::filesystem;
 
+// Without a truth the study shows the values of the runs: those of the exact motion.
+TEST_F(StudyCommand, ShowsValuesWithoutATruth) {
+  json file = swinging_pair();
+  file.erase("truth");
+  file.erase("repeats");
+  file["compare"]["largest"] = {
+      {"probe", "upper"}, {"column", "displacement_z"}, {"reduce", "max"}};
+  const Result result = study(file, {"--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json found = json::parse(result.out);
+  ASSERT_EQ(found.at("rows").size(), 6u);
+  EXPECT_TRUE(found["norm"].is_null());
+  for (const json& row : found["rows"]) {
+    EXPECT_TRUE(row.at("error").is_null());
+    EXPECT_EQ(row.at("repeats").size(), 1u) << "nothing is timed";
+    const double exact = swing(row["stiffness"] == "stiff" ? 10e9 : 5e9);
+    // Central differences are of second order: 0.35 % at a step of 0.2 us.
+    const double steps = row["size"].get<double>() / 0.2e-6;
+    EXPECT_NEAR(row.at("values").at("upper"), exact, 0.005 * steps * steps * std::abs(exact));
+    EXPECT_GE(row["values"]["largest"], row["values"]["upper"]);
+  }
+  EXPECT_TRUE(found["orders"].empty());
+  std::ifstream table(out() + "/study.csv");
+  std::string heading;
+  std::getline(table, heading);
+  EXPECT_EQ(heading, "step,stiffness,largest,upper,particles,steps,seconds,setup_seconds,status");
+  EXPECT_NE(study(file).out.find("upper"), std::string::npos);
+}
+
+TEST_F(StudyCommand, RefusesWhatNeedsATruth) {
+  json file = swinging_pair();
+  file.erase("truth");
+  file["target_error"] = 0.01;
+  file["compare"]["upper"]["scale"] = 2;
+  expect_refused(
+      file, {"/target_error: 0.01: expected \"truth\" with it: a study without a truth has no "
+             "errors",
+             "/compare/upper/scale: 2: expected nothing here, because the study has no truth"});
+}
+
 TEST_F(StudyCommand, GivesRowsOrdersAndTheCheapestSetting) {
   const Result result = study(true_swinging_pair(), {"--json", "--target-error", "0.5%"});
   ASSERT_EQ(result.exit_code, 0) << result.err;

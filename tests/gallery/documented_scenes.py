@@ -7,7 +7,7 @@ import sys
 import tempfile
 
 program, source = sys.argv[1], pathlib.Path(sys.argv[2])
-pages = [source / "README.md", *sorted((source / "docs" / "guide").glob("*.md"))]
+pages = [source / "README.md", *sorted((source / "docs" / "guide").glob("*.md"))]  # tutorials: page_commands.py
 scenes = [(page, text) for page in pages for text in re.findall(r"^```json\n(.*?)^```", page.read_text(), re.M | re.S) if '"format"' in text]
 refused = 0
 with tempfile.TemporaryDirectory() as folder:

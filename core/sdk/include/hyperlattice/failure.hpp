@@ -73,16 +73,19 @@ struct FailureFunctions {
   SurfaceFunctions surface;
 };
 
+/// The criterion needs only the elongation of a spring, m.
 template <class T>
 concept AsksElongation = requires(const T& failure, const SpringFacts& spring) {
   { failure.breaks(spring, 0.0) } -> std::convertible_to<bool>;
 };
+/// The criterion needs the state of a spring: ends, rate, time.
 template <class T>
 concept AsksState = requires(const T& failure, const SpringFacts& spring,
                              const AlarmedSpring& state) {
   { failure.breaks(spring, state) } -> std::convertible_to<bool>;
 };
 
+/// The criterion keeps numbers for each spring.
 template <class T>
 concept AsksMemory = requires(const T& failure, const SpringFacts& spring,
                               const AlarmedSpring& state, typename T::Memory& memory) {

@@ -16,6 +16,7 @@ enum class FieldKind : std::uint32_t { number, vector, symmetric, tensor, sorted
 /// What a body must have so that a field exists in its run.
 enum class FieldNeeds : std::uint32_t { nothing, free_membrane, list, failure, damage };
 
+/// What the program says about a field of results.
 struct FieldInfo {
   std::string_view name;
   FieldKind kind = FieldKind::number;

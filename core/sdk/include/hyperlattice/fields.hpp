@@ -108,6 +108,7 @@ inline std::vector<std::string_view> projections_of(FieldKind kind) {
   return names;
 }
 
+/// Options that name one number of a field: the field, its component, and the centre of radii, m.
 struct QuantityOptions {
   std::string field;
   std::optional<Projection> component;

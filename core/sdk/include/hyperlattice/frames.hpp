@@ -14,6 +14,7 @@
 
 namespace hyperlattice {
 
+/// Options that writers of frames share: fields, name of the files, region, and times in s.
 struct FrameOptions {
   std::vector<std::string> fields;
   std::string file;

@@ -36,6 +36,7 @@ struct OneSpring {
   const double* law = nullptr;                            ///< the law's constants, if it has any
   const double* memory = nullptr;  ///< memory of the spring: KernelSet::memory numbers
 };
+/// What a law says about one spring.
 struct SpringAnswer {
   double force = 0, energy = 0;  ///< N, J
   double dissipated = 0;         ///< in the last step, J

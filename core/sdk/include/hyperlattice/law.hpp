@@ -83,10 +83,12 @@ struct SpringIdentity {
 
 inline constexpr std::size_t max_law_constants = 8, max_law_memory = 6, max_law_fields = 6;
 
+/// The law has constants, which its material sets for each class of springs.
 template <class Law>
 concept LawWithConstants = requires {
   typename Law::Constants;
 };
+/// The law keeps numbers for each spring.
 template <class Law>
 concept LawWithMemory = requires {
   typename Law::Memory;

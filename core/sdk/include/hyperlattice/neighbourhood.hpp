@@ -11,6 +11,7 @@
 
 namespace hyperlattice {
 
+/// Points, and a grid of cubes that finds those within a distance of a place.
 class Neighbourhood {
  public:
   /// Prepares for about `points` points between `low` and `high` and distances up to `reach`, m.

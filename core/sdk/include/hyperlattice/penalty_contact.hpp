@@ -38,6 +38,7 @@ inline double contact_stiffness(const LoadBody& body, RegionId region, std::opti
   return stiffness;
 }
 
+/// Forces of one contact: a spring and a damper along the normal, and friction across it.
 struct PenaltyContact {
   double stiffness = 0;  ///< c, N/m
   double damping = 0;    ///< b, N s/m

@@ -19,6 +19,7 @@ enum class TimeForm : std::uint32_t { constant, triangle, half_sine, harmonic, t
 inline constexpr std::string_view time_form_names[] = {"constant", "triangle", "half_sine",
                                                        "harmonic", "table"};
 
+/// Options of a function of time: its form, and times in s, frequency in Hz, phase in rad.
 struct TimeOptions {
   TimeForm form = TimeForm::constant;
   double start = 0;
