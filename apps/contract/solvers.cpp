@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace hyperlattice::contract {
 namespace {
@@ -29,12 +30,15 @@ SolverResult solve(const Plan& plan, std::uint64_t cut_off = 0) {
   auto simulation = std::make_unique<Simulation>(*plan.model, plan.threads);
   simulation->balance();
   SolverResult solved;
+  StageMemory memory;
   const auto run = [&](std::uint64_t done, std::uint64_t end) {
     StageCalls::Hooks hooks;
     hooks.report = [&](const RestReport& report) { solved.rest = report; };
     if (end > 0) hooks.must_stop = [&] { return simulation->steps() >= end; };
-    StageCalls(*plan.model, *simulation, plan.stages.front(), plan.threads, std::move(hooks), done)
-        .run();
+    StageCalls calls(*plan.model, *simulation, plan.stages.front(), plan.threads, std::move(hooks),
+                     done, std::exchange(memory, {}));
+    calls.run();
+    memory = calls.memory();
   };
   if (cut_off > 0) {
     run(0, cut_off);

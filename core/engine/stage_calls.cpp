@@ -19,24 +19,29 @@ bool StageCalls::guarded(Code&& code) noexcept {
 }
 
 Statics& StageCalls::statics(Statics::Search search) {
-  if (!statics_)
+  if (!statics_) {
     statics_ = std::make_unique<Statics>(model_, simulation_, search, stage_.start_time,
                                          stage_.plan.end_time, threads_);
+    if (!resumed_.statics.empty()) statics_->recall(resumed_.statics);
+  }
   if (statics_->problem().grid.inertia != (search == Statics::Search::motion))
     throw PluginMistake("it searches states of rest and steps in time in one stage");
   return *statics_;
 }
 
 StageCalls::StageCalls(const Model& model, Simulation& simulation, const PlannedStage& stage,
-                       int threads, Hooks hooks, std::uint64_t steps_done)
+                       int threads, Hooks hooks, std::uint64_t steps_done, StageMemory memory)
     : model_(model),
       simulation_(simulation),
       stage_(stage),
       threads_(threads),
-      hooks_(std::move(hooks)) {
+      hooks_(std::move(hooks)),
+      resumed_(std::move(memory)),
+      kept_(resumed_.solver) {
   host_.self = this;
   host_.time = simulation.time();
   host_.steps_done = steps_done;
+  host_.kept = resumed_.solver;
   host_.take_step = [](void* self, double time_step) noexcept {
     auto& calls = *static_cast<StageCalls*>(self);
     return calls.guarded([&] {
@@ -108,6 +113,10 @@ StageCalls::StageCalls(const Model& model, Simulation& simulation, const Planned
       calls.simulation_.set_damping(calls.stage_.plan.damping, rate);
     });
   };
+  host_.keep_numbers = [](void* self, const double* numbers, std::size_t count) noexcept {
+    PluginCall::answer(
+        [&] { static_cast<StageCalls*>(self)->kept_.assign(numbers, numbers + count); });
+  };
   host_.show_rest = [](void* self, const RestReport& report) noexcept {
     auto& calls = *static_cast<StageCalls*>(self);
     return calls.guarded([&] {
@@ -153,6 +162,10 @@ void StageCalls::run() {
   if (failed)
     throw RunError(
         fmt::format("{} ({}) failed: {}", stage.component->type(), stage.pointer, *failed));
+}
+
+StageMemory StageCalls::memory() const {
+  return {kept_, statics_ ? statics_->memory() : resumed_.statics};
 }
 
 RestReport bring_to_rest(const Plan& plan, Simulation& simulation) {

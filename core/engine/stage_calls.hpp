@@ -12,6 +12,12 @@
 
 namespace hyperlattice {
 
+/// What a stage that goes on in its middle needs besides the simulation's state.
+struct StageMemory {
+  std::vector<double> solver;   ///< what the solver kept, see SolverHost::keep()
+  std::vector<double> statics;  ///< see Statics::memory()
+};
+
 class StageCalls {
  public:
   /// Further actions when a solver calls; each may be empty.
@@ -28,13 +34,15 @@ class StageCalls {
     std::function<bool()> must_stop;
   };
   StageCalls(const Model& model, Simulation& simulation, const PlannedStage& stage, int threads,
-             Hooks hooks, std::uint64_t steps_done = 0);
+             Hooks hooks, std::uint64_t steps_done = 0, StageMemory memory = {});
   StageCalls(const StageCalls&) = delete;
   StageCalls& operator=(const StageCalls&) = delete;
 
   /// Runs the stage. Throws RunError if the solver fails, or the exception that was thrown inside
   /// the solver's calls.
   void run();
+  /// Returns what a run that is resumed at the present state needs.
+  StageMemory memory() const;
 
  private:
   template <class Code>
@@ -50,6 +58,8 @@ class StageCalls {
   Hooks hooks_;
   SolverHost host_;
   std::unique_ptr<Statics> statics_;
+  StageMemory resumed_;       ///< what the run that is resumed left
+  std::vector<double> kept_;  ///< by the solver
 };
 
 /// Runs a stage that looks for rest outside of a run, without history and outputs. Throws RunError

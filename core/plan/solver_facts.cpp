@@ -1,5 +1,6 @@
 #include <host/plugin_call.hpp>
 #include <model/local_limits.hpp>
+#include <model/region_index.hpp>
 #include <plan/solver_facts.hpp>
 
 #include <algorithm>
@@ -38,6 +39,19 @@ SolverFacts solver_facts(const Model& model, double start_time) {
       const std::string objection = objection_to_local_steps(of);
       if (!objection.empty()) return why.say("local_steps 1, or " + objection), false;
       steps = LocalLimits(of).divide(parts);
+      return true;
+    });
+  };
+  facts.find_middle = [](const void* self, RegionId region, Vec3& middle,
+                         const Complaint& why) noexcept {
+    return PluginCall::answer(false, [&] {
+      const auto& of = *static_cast<const Model*>(self);
+      RegionIndex regions(of.body, of.scene->regions);
+      const std::span<const Particle> particles = regions.particles(region);
+      if (particles.empty()) return why.say(regions.expected_particles(region)), false;
+      middle = {};
+      for (const Particle particle : particles) middle += of.body.position(particle);
+      middle = middle / static_cast<double>(particles.size());
       return true;
     });
   };

@@ -1,5 +1,7 @@
 #include <run/checkpoints.hpp>
 
+#include <algorithm>
+
 namespace hyperlattice {
 
 void Checkpoints::save(std::uint64_t steps, double time) {
@@ -20,8 +22,10 @@ void Checkpoints::save(std::uint64_t steps, double time) {
   saved_ = std::chrono::steady_clock::now();
 }
 
-void Checkpoints::save_if_due(std::uint64_t steps, double time, std::uint64_t stage_steps) {
-  constexpr std::uint64_t every = 16;  // steps; a clock costs about as much as a hundred particles
+void Checkpoints::save_if_due(std::uint64_t steps, double time, std::uint64_t stage_steps,
+                              double sweeps_per_step) {
+  constexpr double between = 16;  // sweeps; a clock costs about as much as a hundred particles
+  const auto every = static_cast<std::uint64_t>(std::max(1.0, between / sweeps_per_step));
   if (!(seconds_between_ > 0) || stage_steps == 0 || stage_steps % every != 0) return;
   // The clock of one rank decides for all.
   if (ranks_.is_first() && seconds_since(saved_) >= seconds_between_) ranks_.wish(Wish::save);

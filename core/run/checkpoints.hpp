@@ -29,8 +29,10 @@ class Checkpoints {
   /// Saves the state after this number of steps of the run, at `time`, s; before the first step
   /// nothing but the head.
   void save(std::uint64_t steps, double time);
-  /// Saves the state if the last checkpoint is old. `stage_steps`: steps of the present stage.
-  void save_if_due(std::uint64_t steps, double time, std::uint64_t stage_steps);
+  /// Saves the state if the last checkpoint is old. `stage_steps`: steps of the present stage;
+  /// `sweeps_per_step`: SolverPlan::sweeps_per_step.
+  void save_if_due(std::uint64_t steps, double time, std::uint64_t stage_steps,
+                   double sweeps_per_step);
 
  private:
   const Plan& plan_;

@@ -1,11 +1,16 @@
-#include <engine/stage_calls.hpp>
+#include <base/errors.hpp>
 #include <plan/precision.hpp>
 #include <run/failing_motion.hpp>
 #include <run/interrupt.hpp>
 #include <run/observer.hpp>
 #include <run/stage_sequence.hpp>
 
+#include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
+
+#include <cmath>
+#include <memory>
+#include <utility>
 
 namespace hyperlattice {
 
@@ -26,6 +31,10 @@ void StageSequence::archive(Archive& archive) {
   simulation_.archive(archive);
   archive(stages_done_);
   archive(stage_steps_);
+  if (!archive.restores()) memory_ = calls_ != nullptr ? calls_->memory() : StageMemory();
+  archive(memory_.solver);
+  archive(memory_.statics);
+  if (!archive.restores()) memory_ = {};
   recorder_.archive(archive);
   if (archive.restores()) is_resumed_ = stage_steps_ > 0;
 }
@@ -69,9 +78,11 @@ void StageSequence::solve_stage(const PlannedStage& stage) {
     ++stage_steps_;
     recorder_.take_step(time_step);
   };
-  hooks.observe = [this, resumes] {
+  const double sweeps = stage.plan.sweeps_per_step;
+  hooks.observe = [this, resumes, sweeps] {
     recorder_.observe();
-    if (resumes) checkpoints_.save_if_due(simulation_.steps(), simulation_.time(), stage_steps_);
+    if (resumes)
+      checkpoints_.save_if_due(simulation_.steps(), simulation_.time(), stage_steps_, sweeps);
   };
   hooks.report = [this](const RestReport& report) { recorder_.take_report(report); };
   hooks.failing_motion = [this](const std::vector<double>& motion,
@@ -83,13 +94,29 @@ void StageSequence::solve_stage(const PlannedStage& stage) {
       observer->advanced(simulation_, can_change);
     };
   hooks.must_stop = [this] { return must_stop(); };
-  StageCalls(*plan_.model, simulation_, stage, plan_.threads, std::move(hooks), stage_steps_).run();
+  StageCalls calls(*plan_.model, simulation_, stage, plan_.threads, std::move(hooks), stage_steps_,
+                   std::exchange(memory_, {}));
+  calls_ = &calls;
+  const auto forget = [this](const StageCalls*) { calls_ = nullptr; };
+  const std::unique_ptr<const StageCalls, decltype(forget)> present(&calls, forget);
+  calls.run();
   if (must_stop()) {
     if (!resumes) return;
     recorder_.observe_once();
     checkpoints_.save(simulation_.steps(), simulation_.time());
   }
   recorder_.end_stage();
+  // A solver may end before the whole load acts; the loads of the next stage would jump.
+  constexpr double nearly = 1e-9;
+  const double missing = stage.plan.end_time - simulation_.time();
+  if (stage.plan.at_rest && stages_done_ + 1 < plan_.stages.size() &&
+      missing > nearly * std::abs(stage.plan.end_time))
+    throw RunError(
+        fmt::format("{} ({}) ended under the loads of {:.6g} s, and not of its end_time, {:.6g} s, "
+                    "at which the "
+                    "next stage begins",
+                    stage.stage->component->type(), stage.stage->pointer, simulation_.time(),
+                    stage.plan.end_time));
   if (stage.plan.at_rest) simulation_.reset_energy_balance();
 }
 

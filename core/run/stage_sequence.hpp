@@ -1,6 +1,7 @@
 // The solver stages of a run, one after the other.
 #pragma once
 
+#include <engine/stage_calls.hpp>
 #include <run/checkpoints.hpp>
 #include <run/recorder.hpp>
 #include <run/run.hpp>
@@ -48,9 +49,11 @@ class StageSequence {
   Recorder recorder_;
   Checkpoints checkpoints_;
 
-  std::uint64_t stages_done_ = 0;  ///< number of completed stages
-  std::uint64_t stage_steps_ = 0;  ///< steps of the present stage
-  bool is_resumed_ = false;        ///< the run continues in the middle of a stage
+  const StageCalls* calls_ = nullptr;  ///< of the present stage
+  StageMemory memory_;                 ///< of the stage in the middle of which the run continues
+  std::uint64_t stages_done_ = 0;      ///< number of completed stages
+  std::uint64_t stage_steps_ = 0;      ///< steps of the present stage
+  bool is_resumed_ = false;            ///< the run continues in the middle of a stage
 };
 
 }  // namespace hyperlattice

@@ -78,6 +78,10 @@ Statics::Statics(const Model& model, Simulation& simulation, Search search, doub
   problem_.restore_damage_at = [](void* self) noexcept {
     PluginCall::answer([&] { static_cast<Statics*>(self)->restore_damage(); });
   };
+  problem_.places_in = [](void* self, RegionId region) noexcept {
+    return PluginCall::answer(std::span<const std::int64_t>(),
+                              [&] { return static_cast<Statics*>(self)->places_in(region); });
+  };
   problem_.position_of = [](void* self, std::int64_t place) noexcept {
     const auto& statics = *static_cast<const Statics*>(self);
     const StaticGrid& grid = statics.problem_.grid;

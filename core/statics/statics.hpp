@@ -11,6 +11,7 @@
 
 #include <array>
 #include <functional>
+#include <map>
 #include <optional>
 
 namespace hyperlattice {
@@ -36,6 +37,12 @@ class Statics {
   void accept(double share, const double* displacement);
   /// Ends the step in time that the solver began, with the mean displacements `mean`.
   void accept_step(const double* mean);
+  /// Returns what implicit steps that go on from the present state need besides the simulation's
+  /// state; empty before the first step.
+  std::vector<double> memory() const;
+  /// Goes on with what memory() returned, before the first step. Throws std::runtime_error if it is
+  /// of another body.
+  void recall(std::span<const double> memory);
   /// Returns how near to rest the present state is under the loads of the stage's end. The report
   /// has an error from the third call on.
   RestReport rest();
@@ -154,6 +161,9 @@ class Statics {
   WatchedMotion watched_motion(std::size_t load, double factor, const Seen& seen) const;
   void add_answers(const std::vector<double>& factors, const Seen& seen, double* force) const;
 
+  // places.cpp
+  std::span<const std::int64_t> places_in(RegionId region);
+
   // load_path.cpp
   void find_loaded();
   void make_loads();
@@ -251,6 +261,8 @@ class Statics {
   /// The least Rayleigh quotient so far of a motion between two states, 1/s^2.
   double slowest_ = infinity;
   std::vector<Held> held_;  ///< one entry per particle
+  std::map<std::uint32_t, std::vector<std::int64_t>>
+      places_in_;  ///< of regions that were asked for
 };
 
 }  // namespace hyperlattice

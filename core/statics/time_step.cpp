@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 namespace hyperlattice {
@@ -244,6 +245,28 @@ void Statics::accept_step(const double* mean) {
   velocity_ = std::move(speed);
   step_.reset();
   if (problem_.broke > 0) respond(state_.data(), force_.data(), nullptr);
+}
+
+std::vector<double> Statics::memory() const {
+  std::vector<double> all;
+  if (velocity_.empty()) return all;
+  all.push_back(largest_scale_);
+  for (const Values* field : {&state_, &velocity_, &force_})
+    all.insert(all.end(), field->begin(), field->end());
+  return all;
+}
+
+void Statics::recall(std::span<const double> memory) {
+  const std::size_t numbers = problem_.grid.numbers();
+  if (memory.size() != 1 + 3 * numbers)
+    throw std::runtime_error("the checkpoint is of another body");
+  largest_scale_ = memory.front();
+  auto from = memory.begin() + 1;
+  for (Values* field : {&state_, &velocity_, &force_}) {
+    field->assign(from, from + static_cast<std::ptrdiff_t>(numbers));
+    from += static_cast<std::ptrdiff_t>(numbers);
+  }
+  problem_.state = state_.data();
 }
 
 }  // namespace hyperlattice

@@ -39,8 +39,7 @@ class Implicit {
             "No nodal volumes of lists. Springs break at the ends of steps. Damage of cohesive "
             "materials follows the stress without delay. Loads act by their mean over each step; "
             "those that answer to "
-            "the motion, by their answer to the mean motion. A run that is interrupted in this "
-            "stage resumes at the stage's start.")
+            "the motion, by their answer to the mean motion.")
         .add<&Options::end_time>("end_time", "s",
                                  "instant at which the stage ends, counted from the start of the "
                                  "whole run, not of the stage")
@@ -111,6 +110,7 @@ class Implicit {
     SolverPlan plan;
     plan.end_time = o_.end_time;
     plan.stable_time_step = infinity;
+    plan.resumes = true;
     const double length = o_.end_time - facts.start_time;
     constexpr double guessed_steps = 500;  // of automatic steps
     const double parts =
@@ -127,7 +127,7 @@ class Implicit {
 
   void run(const SolverFacts& facts, SolverHost& host) const {
     const SolverPlan planned = plan(facts);
-    if (!host.observe()) return;
+    if (host.steps_done == 0 && !host.observe()) return;
     const StaticProblem* problem = host.motion();
     if (problem == nullptr) return;
     const std::unique_ptr<equilibrium::System> system =
@@ -138,9 +138,11 @@ class Implicit {
         o_.time_step ? implicit::StepLength(planned.time_step, planned.time_step, 0)
                      : implicit::StepLength(std::min(first_step * facts.critical_time_step, length),
                                             length, o_.tolerance);
+    if (!host.kept.empty()) recall(host.kept, newton, steps);
     const std::size_t numbers = problem->grid.numbers();
     equilibrium::Field mean(numbers), change(numbers), end(numbers);
     while (host.time < planned.end_time) {
+      newton.forget_history();  // a run that is resumed here has none
       const double h = steps.next(planned.end_time - host.time);
       problem->begin_step({h, forward});
       std::copy_n(problem->state, numbers, mean.begin());
@@ -162,15 +164,33 @@ class Implicit {
         end[n] = problem->state[n] + change[n];
       }
       if (!steps.accept(h, change, end)) continue;
-      if (!host.accept_step(mean.data()) || !host.observe()) return;
-      if (problem->damages) newton.forget_tangent();
+      const bool goes_on = host.accept_step(mean.data());
       if (problem->growth > o_.damage_step)
         steps.cut(h * o_.damage_step / problem->growth, facts.critical_time_step);
+      keep(host, newton, steps);
+      if (!goes_on || !host.observe()) return;
     }
   }
 
  private:
   static constexpr double first_step = 2;  // automatic, of the critical step
+
+  /// Keeps what the next step needs, so that a checkpoint may be taken here.
+  static void keep(const SolverHost& host, const equilibrium::Newton& newton,
+                   const implicit::StepLength& steps) {
+    const equilibrium::Newton::Memory of = newton.memory();
+    std::vector<double> all{of.scale, of.report.residual, of.report.displacement_error,
+                            static_cast<double>(of.report.iterations)};
+    steps.remember(all);
+    host.keep(all);
+  }
+  static void recall(std::span<const double> all, equilibrium::Newton& newton,
+                     implicit::StepLength& steps) {
+    constexpr std::size_t own = 4;
+    if (all.size() < own) throw std::runtime_error("the checkpoint is of another solver");
+    newton.recall({{all[1], all[2], static_cast<std::uint64_t>(all[3])}, all[0]});
+    steps.recall(all.subspan(own));
+  }
 
   static std::string failure_text(double time, double h, const equilibrium::Outcome& found) {
     return "the step of " + short_number(h) + " s from " + short_number(time) +

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 namespace hyperlattice::implicit {
@@ -59,6 +60,26 @@ bool StepLength::shorten(double h) {
   constexpr int most_failures = 10;
   length_ = h / 2;
   return ++failures_ < most_failures;
+}
+
+void StepLength::remember(std::vector<double>& memory) const {
+  memory.insert(memory.end(), {length_, largest_, last_, one_before_});
+  for (const equilibrium::Field* field : {&velocity_, &velocity_before_})
+    memory.insert(memory.end(), field->begin(), field->end());
+}
+
+void StepLength::recall(std::span<const double> memory) {
+  constexpr std::size_t numbers = 4;
+  if (memory.size() < numbers) throw std::runtime_error("the checkpoint is of another solver");
+  length_ = memory[0];
+  largest_ = memory[1];
+  last_ = memory[2];
+  one_before_ = memory[3];
+  const std::span<const double> fields = memory.subspan(numbers);
+  // After the first step there is no velocity before it.
+  const std::size_t size = one_before_ > 0 ? fields.size() / 2 : fields.size();
+  velocity_.assign(fields.begin(), fields.begin() + static_cast<std::ptrdiff_t>(size));
+  velocity_before_.assign(fields.begin() + static_cast<std::ptrdiff_t>(size), fields.end());
 }
 
 }  // namespace hyperlattice::implicit

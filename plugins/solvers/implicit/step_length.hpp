@@ -7,6 +7,7 @@
 #include <equilibrium/numerics.hpp>
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 namespace hyperlattice::implicit {
@@ -28,6 +29,10 @@ class StepLength {
   /// Sets the length of the next step, s: `length`, or `least` if that is longer. For steps in
   /// which springs break or damage grows.
   void cut(double length, double least) { length_ = std::max(length, least); }
+  /// Adds all that a resumed run needs to `memory`, after a step.
+  void remember(std::vector<double>& memory) const;
+  /// Goes on with what remember() added.
+  void recall(std::span<const double> memory);
   /// Returns the mean velocity of the last step, m/s; empty before the first.
   const equilibrium::Field& velocity() const { return velocity_; }
 

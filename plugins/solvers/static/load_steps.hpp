@@ -1,19 +1,22 @@
 // The way from the loads of a stage's start to those of its end, in steps from one state of rest to
-// the next. A step is cut where no state of rest is found and where it goes too far beyond the
-// first failure of a spring.
+// the next: of the load, or of an opening that controls the load. A step is cut where no state of
+// rest is found and where it goes too far beyond the first failure of a spring.
 #pragma once
 
 #include "cracking.hpp"
+#include "opening_control.hpp"
 
 namespace hyperlattice::equilibrium {
 
-/// Fractions of the load are lengths of steps.
+/// Steps are fractions of the load; with an opening, m.
 struct LoadStepOptions {
   double longest = 1, shortest = 1;
   double damage_step = 0.05;  ///< largest growth of damage in a step of the longest length
   double overshoot =
       infinity;            ///< of the first failure of a spring, relative; infinite: none breaks
   bool snap_back = false;  ///< whether loads fall where cracks would run on
+  std::optional<Opening::Ends> opening{};  ///< what controls the load; none: the load itself
+  double opening_end = infinity;           ///< where the stage ends, at the latest, m
 };
 
 class LoadSteps {
@@ -29,9 +32,11 @@ class LoadSteps {
   double share() const { return share_; }
 
  private:
+  bool is_done() const;
+  double place() const { return control_ ? opening_ : share_; }
   bool advance();
   bool settle();
-  bool search(double most_share, double& reached);
+  bool search(double next, double& reached);
   void go_back();
 
   const StaticProblem& problem_;
@@ -39,8 +44,11 @@ class LoadSteps {
   Newton& newton_;
   LoadStepOptions options_;
   Cracking cracking_;
-  Field u_;  ///< displacements, m
-  double share_ = 0, length_;
+  std::optional<OpeningControl> control_;
+  Field u_;             ///< displacements, m
+  double share_ = 0;    ///< fraction of the load of the last state of rest
+  double opening_ = 0;  ///< of the last state of rest, m
+  double length_;       ///< of the next step
   Outcome found_;
 };
 

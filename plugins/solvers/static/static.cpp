@@ -25,6 +25,9 @@ class Static {
     double overshoot = 1e-3;
     equilibrium::Preconditioner preconditioner = equilibrium::Preconditioner::automatic;
     std::optional<double> end_time;
+    std::optional<RegionId> opening_from, opening_to;
+    std::optional<Vec3> opening_direction;
+    std::optional<double> opening_step, opening_end;
   };
 
   static Schema<Options> schema() {
@@ -92,6 +95,25 @@ class Static {
         .positive()
         .below(1)
         .fallback("1e-3")
+        .add<&Options::opening_from>("opening_from", "",
+                                     "control by an opening: the particles at one end; each state "
+                                     "of rest then has a larger opening, by `opening_step`, and "
+                                     "the load that it needs, which may fall")
+        .add<&Options::opening_to>("opening_to", "",
+                                   "the particles at the other end, as in probes.gauge")
+        .add<&Options::opening_direction>(
+            "opening_direction", "",
+            "a direction fixed in space, of any length, along which the ends move apart; the "
+            "present line between them if left out")
+        .nonzero()
+        .add<&Options::opening_step>("opening_step", "m",
+                                     "growth of the opening from one state of rest to the next; "
+                                     "load_steps and damage_step are then not used")
+        .positive()
+        .add<&Options::opening_end>("opening_end", "m",
+                                    "opening at which the stage ends, if the load has not come to "
+                                    "its end before; no other stage may follow then")
+        .positive()
         .add<&Options::preconditioner>(
             "preconditioner", "",
             "of listed lattices: a factorisation of the tangent, whole or with no more entries "
@@ -102,7 +124,21 @@ class Static {
         .add<&Options::end_time>("end_time", "s",
                                  "instant whose loads act at the end, from the start of the run; "
                                  "left out: when the last load has stopped changing")
-        .at_least(0);
+        .at_least(0)
+        .check([](const Options& o, const FaultSink& faults) {
+          const bool controls = o.opening_from && o.opening_to && o.opening_step;
+          const std::string expected = "all of opening_from, opening_to and opening_step, or none";
+          if (!controls && (o.opening_from || o.opening_to || o.opening_step))
+            faults.fault(o.opening_from ? "opening_from"
+                         : o.opening_to ? "opening_to"
+                                        : "opening_step",
+                         expected);
+          if (!controls && (o.opening_direction || o.opening_end))
+            faults.fault(o.opening_direction ? "opening_direction" : "opening_end",
+                         "opening_from, opening_to and opening_step beside it");
+          if (controls && o.snap_back)
+            faults.fault("snap_back", "false with an opening, with which loads fall anyway");
+        });
   }
 
   explicit Static(const Options& options) : o_(options) {}
@@ -110,6 +146,15 @@ class Static {
   SolverPlan plan(const SolverFacts& facts) const {
     SolverPlan plan = plan_of_rest(facts, o_.end_time);
     plan.steps = static_cast<std::uint64_t>(o_.load_steps);
+    if (o_.opening_step) {
+      const Vec3 apart = facts.middle(*o_.opening_to) - facts.middle(*o_.opening_from);
+      if (!o_.opening_direction && apart == Vec3{})
+        throw std::runtime_error(
+            "opening_to whose mean place is not that of opening_from, or an opening_direction");
+      constexpr double guessed = 50, most = 1e6;  // steps
+      plan.steps = static_cast<std::uint64_t>(
+          o_.opening_end ? std::min(most, std::ceil(*o_.opening_end / *o_.opening_step)) : guessed);
+    }
     plan.sweeps_per_step =
         facts.listed
             ? 2200
@@ -131,7 +176,9 @@ class Static {
         equilibrium::make_system(*problem, o_.preconditioner);
     const bool stable = o_.stability.value_or(!facts.listed && !problem->damages && !facts.breaks);
     equilibrium::Newton newton(*system, host, {.tolerance = o_.tolerance, .stable = stable});
-    const double whole = 1 / static_cast<double>(o_.load_steps);
+    const double whole = o_.opening_step.value_or(1 / static_cast<double>(o_.load_steps));
+    std::optional<equilibrium::Opening::Ends> opening;
+    if (o_.opening_step) opening = {*o_.opening_from, *o_.opening_to, o_.opening_direction};
     double overshoot = infinity;
     if (facts.breaks) overshoot = o_.overshoot;
     equilibrium::LoadSteps steps(
@@ -140,7 +187,9 @@ class Static {
          .shortest = whole * std::exp2(-static_cast<double>(o_.most_cutbacks)),
          .damage_step = o_.damage_step,
          .overshoot = overshoot,
-         .snap_back = o_.snap_back});
+         .snap_back = o_.snap_back,
+         .opening = opening,
+         .opening_end = o_.opening_end.value_or(infinity)});
     if (steps.run()) return;
     const equilibrium::Outcome& found = steps.outcome();
     if (found.at_rest || newton.stopped()) return;  // the host has ended the stage

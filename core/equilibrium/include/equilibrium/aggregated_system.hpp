@@ -17,6 +17,7 @@ class AggregatedSystem : public ListedSystem {
 
   double linearise(const Field& displacement, Field& force) override;
   void prepare() override;
+  void forget() override { made_at_.clear(); }
   void apply(const Field& r, Field& z) override;
 
  private:

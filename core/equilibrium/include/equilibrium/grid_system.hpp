@@ -22,6 +22,7 @@ class GridSystem : public System {
     multigrid_.build();
     matrix_.prepared();
   }
+  void forget() override { matrix_.forget(); }
   void apply(const Field& r, Field& z) override { multigrid_.apply(r, z); }
   double stiffest() const override { return matrix_.stiffest(); }
   double softest_height() const override { return matrix_.softest_height(); }

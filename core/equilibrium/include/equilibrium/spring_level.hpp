@@ -31,6 +31,8 @@ class SpringLevel : public GridLevel {
   bool is_new() const { return new_; }
   /// Marks the preconditioner as made for the present tangents.
   void prepared();
+  /// Makes the preconditioner new at the next linearise().
+  void forget() { moved_when_prepared_.clear(); }
 
   /// Computes the tangent of the spring from a place to a neighbour. Returns false if there is no
   /// spring.

@@ -22,6 +22,9 @@ class System : public numerics::LinearOperator, public numerics::Preconditioner 
   // multiply() gives 0 for components that cannot move, and mask() sets these to 0.
   /// Makes the preconditioner, apply(), for the present tangents.
   virtual void prepare() = 0;
+  /// Lets the next prepare() depend on nothing before it, so that a run that goes on from here and
+  /// one that was resumed here take the same preconditioner.
+  virtual void forget() {}
   /// Returns the number of iterations after which conjugate gradients give up.
   virtual int most_iterations() const { return 1000; }
   /// Returns the largest tangent of a spring, N/m.

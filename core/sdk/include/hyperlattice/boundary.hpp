@@ -104,12 +104,12 @@
   CROSSES(DamageSearch, share, least_share, most_share, most_growth)                                                                                  \
   CROSSES(TimeStep, length, forward)                                                                                                                  \
   CROSSES(DamageFound, share, change)                                                                                                                 \
-  CROSSES(StaticProblem, self, grid, state, respond_to, load_at, prescribe_at, scale_of, position_of, damages, grow_damage_at, restore_damage_at, begin_step_of, broke, growth, hold_with, overshoot_at)                                                 \
+  CROSSES(StaticProblem, self, grid, state, respond_to, load_at, prescribe_at, scale_of, position_of, damages, grow_damage_at, restore_damage_at, begin_step_of, broke, growth, hold_with, overshoot_at, places_in)                                                 \
   CROSSES(RestReport, residual, displacement_error, iterations)                                                                                       \
   CROSSES(LocalSteps, time_step, parts, share, cost)                                                                                                                            \
-  CROSSES(SolverFacts, start_time, critical_time_step, corners, sites_across, listed, nodal_volumes, remembers, damages, answering, breaks, self, divide)                             \
+  CROSSES(SolverFacts, start_time, critical_time_step, corners, sites_across, listed, nodal_volumes, remembers, damages, answering, breaks, self, divide, find_middle)                             \
   CROSSES(SolverPlan, end_time, time_step, stable_time_step, damping, steps, at_rest, grows_damage, resumes, local, bytes_per_site, sweeps_per_step)                       \
-  CROSSES(SolverHost, self, time, steps_done, take_step, show, open, take, measure_rest, stop_motion, set_damping_rate, show_rest, keep_motion, open_motion, take_motion)       \
+  CROSSES(SolverHost, self, time, steps_done, kept, take_step, show, open, take, measure_rest, stop_motion, set_damping_rate, show_rest, keep_motion, open_motion, take_motion, keep_numbers)       \
   CROSSES(SolverFunctions, plan, run)                                                                                                                 \
   CROSSES(Field, components, values)                                                                                                                  \
   CROSSES(Resultant, force, moment)                                                                                                                   \

@@ -34,17 +34,32 @@ struct SolverFacts {
   const void* self = nullptr;
   bool (*divide)(const void* self, std::int64_t parts, LocalSteps& steps,
                  const Complaint& why) noexcept = nullptr;
+  bool (*find_middle)(const void* self, RegionId region, Vec3& middle,
+                      const Complaint& why) noexcept = nullptr;
 
   /// Returns the division of the body into particles that take `parts` steps within one step of the
   /// others; the cheapest one if `parts` is 0. Throws std::runtime_error if the body allows none.
   LocalSteps local_steps(std::int64_t parts) const {
     LocalSteps steps;
+    ask([&](const Complaint& why) { return divide(self, parts, steps, why); });
+    return steps;
+  }
+  /// Returns the mean position of the particles of a region at rest, m. Throws std::runtime_error
+  /// if it has none.
+  Vec3 middle(RegionId region) const {
+    Vec3 found;
+    ask([&](const Complaint& why) { return find_middle(self, region, found, why); });
+    return found;
+  }
+
+ private:
+  template <class Question>
+  static void ask(const Question& question) {
     std::string objection;
     const Complaint why{&objection, [](void* text, std::string_view sentence) noexcept {
                           *static_cast<std::string*>(text) = sentence;
                         }};
-    if (!divide(self, parts, steps, why)) throw std::runtime_error(objection);
-    return steps;
+    if (!question(why)) throw std::runtime_error(objection);
   }
 };
 
@@ -74,6 +89,8 @@ struct SolverHost {
   double time = 0;  ///< seconds; advanced by step()
   /// Steps of this stage done by the run that is resumed; that run has observed the present state.
   std::uint64_t steps_done = 0;
+  /// What the solver of that run kept last; else empty.
+  std::span<const double> kept;
   bool (*take_step)(void* self, double time_step) noexcept = nullptr;
   bool (*show)(void* self) noexcept = nullptr;
 
@@ -94,6 +111,14 @@ struct SolverHost {
   bool (*keep_motion)(void* self, const double* motion) noexcept = nullptr;
   const StaticProblem* (*open_motion)(void* self) noexcept = nullptr;
   bool (*take_motion)(void* self, const double* mean) noexcept = nullptr;
+  void (*keep_numbers)(void* self, const double* numbers, std::size_t count) noexcept = nullptr;
+
+  /// Gives the numbers that the solver needs, besides the state, to go on in the middle of the
+  /// stage. Checkpoints hold the latest. A solver that needs some calls it after each step, before
+  /// observe(), also if the run must stop.
+  void keep(std::span<const double> numbers) const {
+    keep_numbers(self, numbers.data(), numbers.size());
+  }
 
   /// Returns the body for a static solver, built at the first call; valid during the stage. Null:
   /// the run must stop.

@@ -124,6 +124,7 @@ struct StaticProblem {
   double growth = 0;        ///< largest growth of damage after a step in time
   void (*hold_with)(void* self, double stiffness) noexcept = nullptr;
   double (*overshoot_at)(void* self, double share, const double* displacement) noexcept = nullptr;
+  std::span<const std::int64_t> (*places_in)(void* self, RegionId region) noexcept = nullptr;
 
   /// Computes the forces of the springs on every particle, N, held particles included, and the
   /// tangents if `tangents` is not null. Returns the stored energy, J.
@@ -172,6 +173,8 @@ struct StaticProblem {
   /// with the tangent of inertia in SpringTangents::own, and no energy; load() gives F and
   /// prescribe() sets the held components of w, at any share. Only of SolverHost::motion().
   void begin_step(const TimeStep& step) const { begin_step_of(self, step); }
+  /// Returns the places of the particles of a region; empty if it has none.
+  std::span<const std::int64_t> places(RegionId region) const { return places_in(self, region); }
   /// Returns the position at rest, m.
   Vec3 position(std::int64_t place) const { return position_of(self, place); }
 };
