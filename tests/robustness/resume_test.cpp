@@ -86,6 +86,16 @@ const Case cases[] = {
        scene["pipeline"][material].update({{"membrane", "none"}, {"poisson", 0.25}});
        scene["pipeline"][5]["mass_scaling"] = "1 us";
      }},
+    {"implicit",  // automatic steps, springs that break, then explicit steps
+     [](json& scene) {
+       json& pipeline = scene["pipeline"];
+       pipeline.erase(4);  // implicit solvers do not support the drag
+       pipeline[lattice]["shape"]["box"]["high"] = {0.004, 0.004, 0.008};
+       pipeline[4]["end_time"] = "0.3 ms";
+       pipeline.insert(
+           pipeline.begin() + 4,
+           json{{"type", "solvers.implicit"}, {"end_time", "0.2 ms"}, {"tolerance", 1e-4}});
+     }},
     {"after_rest",
      [](json& scene) {
        json& pipeline = scene["pipeline"];
