@@ -7,7 +7,7 @@ class Turntable {
     this.camera.up.set(0, 0, 1);
     this.radius = radius;
     this.target = middle.clone();
-    this.distance = 3.6 * radius;
+    this.distance = 2.9 * radius;
     this.azimuth = 0.9;
     this.height = 0.45;
     this.canvas = canvas;
