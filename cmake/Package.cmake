@@ -13,7 +13,7 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_MAIN_PACKAGE_NAME hyperlattice)
-set(CPACK_DEBIAN_MAIN_PACKAGE_RECOMMENDS "g++, cmake") # for the plugins of users
+set(CPACK_DEBIAN_MAIN_PACKAGE_RECOMMENDS "g++, cmake, libjs-three") # for the plugins of users; for report --interactive
 if(TARGET hyperlattice_python)
   # The module fits one version of Python and exactly this version of the library.
   math(EXPR next_minor "${HYPERLATTICE_PYTHON_MINOR} + 1")

@@ -4,6 +4,7 @@
 #include <base/errors.hpp>
 #include <base/named_file.hpp>
 #include <report/report.hpp>
+#include <report/viewer.hpp>
 #include <run/output_file.hpp>
 
 #include <hyperlattice/files.hpp>
@@ -18,7 +19,7 @@ Command report_command(CLI::App& program) {
   struct Arguments {
     std::vector<std::filesystem::path> folders;
     std::filesystem::path file;
-    bool json = false;
+    bool json = false, interactive = false;
   };
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command = program.add_subcommand(
@@ -32,8 +33,10 @@ Command report_command(CLI::App& program) {
                    "the page (default: DIR/report.html of one folder, report.html here of several)")
       ->type_name("FILE");
   command->add_flag("--json", arguments->json, "print what the page says for machines");
+  command->add_flag("--interactive", arguments->interactive,
+                    "with the body in 3D, of one run whose scene has a writers.vtu");
   return {command, [arguments] {
-            auto& [folders, file, json] = *arguments;
+            auto& [folders, file, json, interactive] = *arguments;
             const bool is_default = file.empty();
             if (is_default)
               file =
@@ -42,7 +45,10 @@ Command report_command(CLI::App& program) {
             check_output_file({"--out", file, {".html", ".htm"}, is_default}, {}, faults);
             faults.throw_if_any();
             const report::Report report = report::read_report(folders);
-            const std::string page = report::report_page(report);
+            if (interactive && (report.runs.size() != 1 || !report.studies.empty()))
+              throw InputError({{"--interactive", "", "the folder of one run"}});
+            const std::string page = report::report_page(
+                report, interactive ? report::viewer_section(report.runs.front()) : "");
             if (is_default)
               write_file(file.string(), page);  // does not follow a link that was created meanwhile
             else

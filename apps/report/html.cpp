@@ -56,11 +56,11 @@ std::string escaped(std::string_view text) {
   return out;
 }
 
-std::string data_uri(std::string_view media_type, std::string_view bytes) {
+std::string base64(std::string_view bytes) {
   static constexpr char digits[] =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out = fmt::format("data:{};base64,", media_type);
-  out.reserve(out.size() + 4 * (bytes.size() / 3 + 1));
+  std::string out;
+  out.reserve(4 * (bytes.size() / 3 + 1));
   for (std::size_t n = 0; n < bytes.size(); n += 3) {
     const std::size_t here = std::min<std::size_t>(3, bytes.size() - n);
     unsigned bits = 0;
@@ -69,6 +69,10 @@ std::string data_uri(std::string_view media_type, std::string_view bytes) {
     for (std::size_t d = 0; d < 4; ++d) out += d <= here ? digits[bits >> (18 - 6 * d) & 63] : '=';
   }
   return out;
+}
+
+std::string data_uri(std::string_view media_type, std::string_view bytes) {
+  return fmt::format("data:{};base64,{}", media_type, base64(bytes));
 }
 
 std::string table_html(const HtmlTable& table) {

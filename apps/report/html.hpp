@@ -11,6 +11,9 @@ namespace hyperlattice::report {
 /// does not allow become U+FFFD.
 std::string escaped(std::string_view text);
 
+/// Returns bytes as base64.
+std::string base64(std::string_view bytes);
+
 /// Returns "data:image/png;base64,..." for these bytes.
 std::string data_uri(std::string_view media_type, std::string_view bytes);
 

@@ -173,7 +173,7 @@ void put_study(std::string& page, const StudyRecord& study, bool is_only) {
 
 }  // namespace
 
-std::string report_page(const Report& report) {
+std::string report_page(const Report& report, std::string_view last) {
   const std::size_t count = report.runs.size() + report.studies.size();
   const bool is_only = count == 1;
   const std::string title = !is_only
@@ -192,6 +192,7 @@ std::string report_page(const Report& report) {
   if (report.runs.size() > 1) put_together(page, report);
   for (const StudyRecord& study : report.studies) put_study(page, study, is_only);
   for (const RunRecord& run : report.runs) put_run(page, run, is_only);
+  page += last;
   page += "</body>\n</html>\n";
   return page;
 }

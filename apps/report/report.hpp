@@ -18,8 +18,9 @@ struct Report {
 Report read_report(const std::vector<std::filesystem::path>& folders);
 
 /// Returns a page that contains its style, plots and pictures, and needs no other file and no
-/// network. The page is HTML and also well-formed XML; the same results give the same bytes.
-std::string report_page(const Report& report);
+/// network. The page is HTML and also well-formed XML; the same results give the same bytes. `last`
+/// is a last section (viewer.hpp), or empty.
+std::string report_page(const Report& report, std::string_view last = "");
 
 Json report_json(const Report& report);
 

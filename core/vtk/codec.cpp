@@ -53,4 +53,26 @@ std::size_t pack(Codec codec, std::string_view bytes, std::vector<char>& out) {
   }
 }
 
+bool unpack(Codec codec, std::string_view packed, std::span<char> out) {
+  switch (codec) {
+    case Codec::zlib: {
+      uLongf size = out.size();
+      return uncompress(reinterpret_cast<Bytef*>(out.data()), &size,
+                        reinterpret_cast<const Bytef*>(packed.data()), packed.size()) == Z_OK &&
+             size == out.size();
+    }
+    case Codec::lz4: {
+      constexpr std::size_t most = LZ4_MAX_INPUT_SIZE;
+      if (packed.size() > most || out.size() > most) return false;
+      const int size = static_cast<int>(out.size());
+      return LZ4_decompress_safe(packed.data(), out.data(), static_cast<int>(packed.size()),
+                                 size) == size;
+    }
+    default:
+      if (packed.size() != out.size()) return false;
+      std::copy(packed.begin(), packed.end(), out.begin());
+      return true;
+  }
+}
+
 }  // namespace hyperlattice::vtk

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -17,5 +18,8 @@ std::string_view compressor_of(Codec codec);
 /// Packs at most 1 GiB into `out`, which grows as needed. Returns the number of bytes of the
 /// result. Throws std::runtime_error if the codec fails.
 std::size_t pack(Codec codec, std::string_view bytes, std::vector<char>& out);
+
+/// Unpacks what pack() wrote. Returns false if it is not whole, or has another size than `out`.
+bool unpack(Codec codec, std::string_view packed, std::span<char> out);
 
 }  // namespace hyperlattice::vtk
