@@ -90,7 +90,8 @@ const Case cases[] = {
      [](json& scene) {
        json& pipeline = scene["pipeline"];
        pipeline.erase(4);  // implicit solvers do not support the drag
-       pipeline[lattice]["shape"]["box"]["high"] = {0.004, 0.004, 0.008};
+       pipeline[lattice]["spacing"] = 2e-3;
+       pipeline[material]["failure"]["limit"] = "4e-3 mm";
        pipeline[4]["end_time"] = "0.3 ms";
        pipeline.insert(
            pipeline.begin() + 4,
