@@ -34,7 +34,7 @@ Command report_command(CLI::App& program) {
       ->type_name("FILE");
   command->add_flag("--json", arguments->json, "print what the page says for machines");
   command->add_flag("--interactive", arguments->interactive,
-                    "with the body in 3D, of one run whose scene has a writers.vtu");
+                    "with the body in 3D, of one run that wrote frames (.vtu)");
   return {command, [arguments] {
             auto& [folders, file, json, interactive] = *arguments;
             const bool is_default = file.empty();

@@ -15,7 +15,7 @@ std::vector<FrameFile> frames_in(std::string_view collection, const fs::path& fo
   for (const std::string_view tag : tags(collection, "DataSet")) {
     const auto time = csv_number(attribute(tag, "timestep").value_or(""));
     const auto name = attribute(tag, "file");
-    if (time && name) frames.push_back({folder / *name, *time});
+    if (time && name && name->ends_with(".vtu")) frames.push_back({folder / *name, *time});
   }
   return frames;
 }
@@ -25,19 +25,20 @@ std::vector<FrameFile> frames_in(std::string_view collection, const fs::path& fo
 FrameSeries find_frames(const RunRecord& run) {
   const Json none = Json::array();
   for (const Json& stage : run.scene.is_object() ? run.scene.value("pipeline", none) : none) {
-    if (word_in(stage, "type") != "writers.vtu") continue;
+    const std::string type = word_in(stage, "type"), base = word_in(stage, "file");
+    if (!type.starts_with("writers.") || base.empty()) continue;
     FrameSeries series;
     series.writer = word_in(stage, "name");
     series.is_deformed = stage.contains("deformed") && stage["deformed"] == true;
     // A writer with a label writes into a folder of that name.
-    const fs::path folder = series.writer == "vtu" ? fs::path() : fs::path(series.writer);
-    const auto file =
-        read_folder_file(run.folder, folder / (word_in(stage, "file") + ".pvd"), largest_table);
+    const fs::path folder =
+        series.writer == type.substr(type.find('.') + 1) ? fs::path() : fs::path(series.writer);
+    const auto file = read_folder_file(run.folder, folder / (base + ".pvd"), largest_table);
     if (file && file->refusal.empty()) series.frames = frames_in(file->text, folder);
     if (!series.frames.empty()) return series;
   }
   throw InputError({{"--interactive", run.folder.string(),
-                     "a run with frames, of a scene that has a writers.vtu"}});
+                     "a run with frames (.vtu and .pvd), which a writer of its scene left"}});
 }
 
 VtuFrame read_frame(const RunRecord& run, const FrameFile& file, std::size_t most) {

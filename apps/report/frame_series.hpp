@@ -1,4 +1,4 @@
-// The frames that writers.vtu of a run wrote.
+// The frames that a run wrote as VTK files (.vtu).
 #pragma once
 
 #include <report/record.hpp>
@@ -19,8 +19,8 @@ struct FrameSeries {
   std::vector<FrameFile> frames;
 };
 
-/// Finds the frames of the first writers.vtu of the run's scene that wrote any, as its collection
-/// file (.pvd) lists them. Throws InputError if there are none.
+/// Finds the frames of the first writer of the run's scene that left a collection file (.pvd) with
+/// .vtu files, in the order of that file. Throws InputError if there are none.
 FrameSeries find_frames(const RunRecord& run);
 
 /// Reads a frame of at most `most` particles. Throws InputError with the file's name if it is

@@ -94,8 +94,8 @@ std::size_t most_frames(const RunRecord& run, const VtuFrame& frame) {
         {{"--interactive",
           fmt::format("{}: {} particles with {} numbers", run.folder.string(), frame.particles,
                       arrays),
-          fmt::format("frames of at most {:.0f} MB in the page: give writers.vtu fewer fields, or "
-                      "a region",
+          fmt::format("frames of at most {:.0f} MB in the page: give the writer fewer fields, or a "
+                      "region",
                       static_cast<double>(largest_viewer_data) / 1e6)}});
   constexpr double most_useful = 10000;
   return static_cast<std::size_t>(std::min(most, most_useful));

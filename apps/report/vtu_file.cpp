@@ -31,7 +31,7 @@ class Arrays {
     const bool is_little = std::endian::native == std::endian::little;
     if (file.empty() || attribute(file.front(), "header_type") != "UInt64" ||
         attribute(file.front(), "byte_order") != (is_little ? "LittleEndian" : "BigEndian"))
-      throw std::runtime_error("a file of writers.vtu, written on a machine like this");
+      throw std::runtime_error("a frame with sizes of 64 bits and the byte order of this machine");
     const std::string compressor = attribute(file.front(), "compressor").value_or("");
     for (const vtk::Codec codec : {vtk::Codec::zlib, vtk::Codec::lz4, vtk::Codec::none})
       if (vtk::compressor_of(codec) == compressor) {
@@ -139,7 +139,8 @@ std::vector<std::string_view> tags(std::string_view text, std::string_view name)
 VtuFrame read_vtu(std::string_view bytes, std::size_t most) {
   constexpr std::string_view mark = "<AppendedData encoding=\"raw\">\n_";
   const std::size_t place = bytes.find(mark);
-  if (place == std::string_view::npos) throw std::runtime_error("a file of writers.vtu");
+  if (place == std::string_view::npos)
+    throw std::runtime_error("a VTK file with appended raw arrays");
   const std::string_view head = bytes.substr(0, place);
   const Arrays arrays(head, bytes.substr(place + mark.size()));
   const auto pieces = tags(head, "Piece");

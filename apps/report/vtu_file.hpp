@@ -1,4 +1,4 @@
-// Reads the frames that writers.vtu wrote: VTK files in XML, whose arrays follow the text as raw
+// Reads the frames of a run: VTK files in XML (.vtu), whose arrays follow the text as raw
 // binary data (core/vtk/include/vtk/encoded_array.hpp).
 #pragma once
 
@@ -24,7 +24,7 @@ struct VtuFrame {
 };
 
 /// Reads a file with at most `most` particles. Throws std::runtime_error with what is wrong: no
-/// such file of writers.vtu, an array that is cut off, or too many particles.
+/// such file, an array that is cut off, or too many particles.
 VtuFrame read_vtu(std::string_view bytes, std::size_t most);
 
 /// Returns an attribute of an XML tag, as `timestep` of `<DataSet timestep="0.1" .../>`; nothing if

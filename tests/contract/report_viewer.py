@@ -21,7 +21,8 @@ SCENE = {
     "format": "hyperlattice/1",
     "title": TITLE,
     "pipeline": [
-        {"type": "lattices.cubic", "spacing": "1 mm", "shape": {"hollow_sphere": {"inner_radius": "3 mm", "outer_radius": "6 mm"}}},
+        {"type": "lattices.cubic", "spacing": "1 mm",
+         "shape": {"hollow_sphere": {"inner_radius": "3 mm", "outer_radius": "6 mm"}}},
         {"type": "materials.elastic", "young": "10 GPa", "poisson": 0.1, "density": 2500, "membrane": "I-m",
          "failure": {"type": "failures.elongation", "limit": "1e-3 mm"}},
         {"type": "loads.blast", "on": "inner_surface", "peak": "100 MPa", "rise": "2 us", "fall": "5 us"},
@@ -41,12 +42,14 @@ VISITOR = """
     let count = 0;
     for (let n = 0; n !== colours.length; n += 4)
       if (colours[n + 3]) { ++count; kinds.add(colours[n] * 65536 + colours[n + 1] * 256 + colours[n + 2]); }
-    return {share: 4 * count / colours.length, colours: kinds.size, text: document.querySelector(".viewer-count").textContent};
+    return {share: 4 * count / colours.length, colours: kinds.size,
+            text: document.querySelector(".viewer-count").textContent};
   };
   const set = (control, value) => { control.value = value; control.dispatchEvent(new Event("input")); };
   seen.whole = await pixels();
   const canvas = document.querySelector(".viewer-canvas"), box = canvas.getBoundingClientRect();
-  canvas.dispatchEvent(new MouseEvent("click", {clientX: box.left + box.width / 2, clientY: box.top + box.height / 2}));
+  const middle = {clientX: box.left + box.width / 2, clientY: box.top + box.height / 2};
+  canvas.dispatchEvent(new MouseEvent("click", middle));
   seen.particle = document.querySelector(".viewer-particle").textContent;
   seen.rows = all(".viewer-particle tr").map(row => row.lastChild.textContent);
   const [field, axis] = all(".viewer-controls select"), [time, cut] = all(".viewer-controls input[type=range]");
@@ -74,6 +77,9 @@ def read_with_vtk(file):
     return vtk_to_numpy(grid.GetPoints().GetData()).astype(float), fields
 
 
+LOADING = ("src", "href", "srcset", "data", "action", "xlink:href")
+
+
 class Links(html.parser.HTMLParser):
     def __init__(self, text):
         super().__init__()
@@ -82,7 +88,7 @@ class Links(html.parser.HTMLParser):
 
     def handle_starttag(self, tag, attributes):
         self.scripts += tag == "script"
-        self.links += [value for name, value in attributes if name in ("src", "href", "srcset", "data", "action", "xlink:href")]
+        self.links += [value for name, value in attributes if name in LOADING]
 
 
 def script(text, name):
@@ -94,7 +100,8 @@ def complaints_about_numbers(text, folder, deformed):
     numbers = np.frombuffer(base64.b64decode(script(text, "viewer-numbers"), validate=True), "<u2")
 
     def values(array):
-        return array["min"] + numbers[array["at"]:array["at"] + about["particles"]] * (array["max"] - array["min"]) / 65534
+        steps = numbers[array["at"]:array["at"] + about["particles"]]
+        return array["min"] + steps * (array["max"] - array["min"]) / 65534
 
     def differ(array, truth):
         half_step = 0.5 * (array["max"] - array["min"]) / 65534
@@ -134,10 +141,11 @@ def complaints_about_browser(text, folder):
     page = folder / "visited.html"
     page.write_text(text.replace("</body>", f"<script>//<![CDATA[\n{VISITOR}\n//]]></script></body>"), encoding="utf-8")
     run = subprocess.run(
-        [browser, "--headless=new", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-         f"--user-data-dir={folder / 'browser'}", "--enable-logging=stderr", "--window-size=900,900", "--virtual-time-budget=5000",
-         "--dump-dom", page.resolve().as_uri()], capture_output=True, text=True, timeout=500)
-    found = [line for line in run.stderr.splitlines() if "CONSOLE" in line and re.search("error|exception|uncaught", line, re.IGNORECASE)]
+        [browser, "--headless=new", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader",
+         "--enable-unsafe-swiftshader", f"--user-data-dir={folder / 'browser'}", "--enable-logging=stderr",
+         "--window-size=900,900", "--virtual-time-budget=5000", "--dump-dom", page.resolve().as_uri()],
+        capture_output=True, text=True, timeout=500)
+    found = [line for line in run.stderr.splitlines() if re.search("CONSOLE.*(error|exception|uncaught)", line, re.I)]
     dom = re.search('<pre id="seen">(.*?)</pre>', run.stdout, re.DOTALL)
     if dom is None:
         return found + ["the page does not run to its end", run.stderr[-2000:]]
@@ -145,7 +153,8 @@ def complaints_about_browser(text, folder):
     whole, cut, intact = seen["whole"], seen["cut"], seen["intact"]
     if not 0.02 < whole["share"] < 0.9 or whole["colours"] < 20:
         found.append(f"the whole body fills {whole['share']:.3f} of the picture with {whole['colours']} colours")
-    shown = {name: int(re.search(r"(\d+) of \d+ particles", seen[name]["text"]).group(1)) for name in ("whole", "cut", "intact")}
+    shown = {name: int(re.search(r"(\d+) of \d+ particles", seen[name]["text"]).group(1))
+             for name in ("whole", "cut", "intact")}
     if not 0.4 < shown["cut"] / shown["whole"] < 0.6 or cut["share"] <= 0:
         found.append(f"shown: {shown}")
     if shown["intact"] != 0 or intact["share"] != 0:  # no spring is broken in the first frame
@@ -156,9 +165,10 @@ def complaints_about_browser(text, folder):
     if met is None:
         return found + ["a click meets nothing"]
     particle = int(met.group(1))
-    truth = [np.linalg.norm(fields["displacement"][particle]), *fields["displacement"][particle], fields["broken_open"][particle],
-             *fields["stress"][particle]]
-    scales = [np.abs(fields["displacement"]).max()] * 4 + [1] + [np.abs(fields["stress"]).max()] * 6
+    displacement, stress = fields["displacement"], fields["stress"]
+    truth = [np.linalg.norm(displacement[particle]), *displacement[particle], fields["broken_open"][particle],
+             *stress[particle]]
+    scales = [np.abs(displacement).max()] * 4 + [1] + [np.abs(stress).max()] * 6
     for text_shown, value, scale in zip(seen["rows"], truth, scales, strict=True):
         if abs(float(text_shown.split()[0]) - value) > 2e-3 * scale:
             found.append(f"particle {particle}: {text_shown} instead of {value}")
@@ -173,14 +183,16 @@ def main():
 
     def run(name, *options):
         settings = [word for option in options for word in ("--set", option)]
-        subprocess.run([program, "run", folder / "scene.json", "--quiet", "--out", folder / name, *settings], check=True, capture_output=True)
+        subprocess.run([program, "run", folder / "scene.json", "--quiet", "--out", folder / name, *settings],
+                       check=True, capture_output=True)
         return subprocess.run([program, "report", folder / name, "--interactive"], capture_output=True, text=True)
 
     found = []
     for codec, deformed in (("lz4", False), ("zlib", True), ("none", False)):
         made = run(codec, f'/pipeline/4/codec="{codec}"', f"/pipeline/4/deformed={json.dumps(deformed)}")
         if not three.is_file():
-            refused = made.returncode == 4 and "libjs-three" in made.stderr and not (folder / codec / "report.html").exists()
+            is_written = (folder / codec / "report.html").exists()
+            refused = made.returncode == 4 and "libjs-three" in made.stderr and not is_written
             print("no three.js: only the refusal is checked" if refused else f"no refusal without three.js: {made}")
             return 0 if refused else 1
         if made.returncode != 0:
@@ -199,7 +211,8 @@ def main():
     (folder / "zlib" / "report.html").unlink()
     last = folder / "zlib" / "frames_000006.vtu"
     last.write_bytes(last.read_bytes()[:last.stat().st_size // 2])
-    for fault, spoil in (("a frame that is cut off", lambda: None), ("no frames", (folder / "zlib" / "frames.pvd").unlink)):
+    collection = folder / "zlib" / "frames.pvd"
+    for fault, spoil in (("a frame that is cut off", lambda: None), ("no frames", collection.unlink)):
         spoil()
         refused = subprocess.run([program, "report", folder / "zlib", "--interactive"], capture_output=True, text=True)
         if refused.returncode != 2 or (folder / "zlib" / "report.html").exists():

@@ -28,7 +28,8 @@ function start() {
     place.textContent = "This browser has no WebGL, so the body is not shown in 3D.";
     return;
   }
-  const legend = new Legend(), details = element("div", {class: "viewer-particle"}), count = element("p", {class: "viewer-count soft"});
+  const legend = new Legend(), details = element("div", {class: "viewer-particle"});
+  const count = element("p", {class: "viewer-count soft"});
   scene.add(cubes.mesh);
 
   let waits = false;
