@@ -118,10 +118,11 @@ void attempt(const Plan& plan, Ranks& ranks, Outcome& outcome, const std::functi
   }
 }
 
-/// Returns whether a run that was asked to stop may have left out steps. The number of steps of a
-/// search for rest is not known in advance.
-bool may_be_short(const Plan& plan, std::uint64_t steps) {
-  return steps < plan.steps() ||
+/// Returns whether a run that was asked to stop at `time`, s, may have left out steps. Their number
+/// is not known in advance in a search for rest and with automatic steps, and the time of a search
+/// for rest does not say how far it is.
+bool may_be_short(const Plan& plan, double time) {
+  return time < plan.end_time() ||
          std::any_of(plan.stages.begin(), plan.stages.end(),
                      [](const PlannedStage& stage) { return stage.plan.at_rest; });
 }
@@ -143,7 +144,7 @@ void solve(const Plan& plan, const RunOptions& options, RunFolder& folder,
     stages->solve();
     stages->finish();
     folder.check_tables();
-    if (ranks.agreed(Wish::stop) && may_be_short(plan, simulation->steps()))
+    if (ranks.agreed(Wish::stop) && may_be_short(plan, simulation->time()))
       outcome.end("interrupted", exit_interrupted, "asked to stop by a signal");
   });
   if (stages) {
