@@ -107,11 +107,6 @@ const Case cases[] = {
        pipeline[5]["damping"] = 0.1;
      }},
     {"implicit", [](json& scene) { make_implicit(scene); }},
-    {"implicit_in_floats",
-     [](json& scene) {
-       make_implicit(scene);
-       scene["precision"] = "float";
-     }},
     {"implicit_list",  // with multigrid, whose levels are made anew where the run goes on
      [](json& scene) {
        scene["pipeline"][lattice]["type"] = "lattices.random";
