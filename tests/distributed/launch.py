@@ -2,9 +2,12 @@
 import os
 import shutil
 import subprocess
+import tempfile
 
 # The exit code by which ctest knows a skipped test.
 SKIPPED = 77
+# Of the launcher, which removes the folder at its end: not one that it shares with launchers of other tests.
+SESSIONS = tempfile.TemporaryDirectory(prefix="ranks")
 
 
 def command(ranks, *words):
@@ -17,7 +20,8 @@ def command(ranks, *words):
 def environment():
     """mpirun refuses root otherwise. Ranks that wait must leave the processor to others."""
     return {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-            "OMPI_MCA_mpi_yield_when_idle": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
+            "OMPI_MCA_mpi_yield_when_idle": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
+            "OMPI_MCA_orte_tmpdir_base": SESSIONS.name}
 
 
 def run(ranks, *words, **more):
