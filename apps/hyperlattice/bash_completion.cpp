@@ -23,11 +23,8 @@ std::string proposal(const OptionFacts& option) {
     case ValueKind::lattice:
       return "_hyperlattice_words \"$(hyperlattice plugins --names 2>/dev/null | grep "
              "'^lattices')\"";
-    case ValueKind::words: {
-      std::string words;
-      for (const std::string& word : option.words) words += (words.empty() ? "" : " ") + word;
-      return "_hyperlattice_words " + in_quotes(words);
-    }
+    case ValueKind::words:
+      return "_hyperlattice_words " + in_quotes(in_one_line(option.words));
     case ValueKind::none:
       break;
   }

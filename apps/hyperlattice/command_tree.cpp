@@ -1,6 +1,8 @@
 // Reads the declarations of the commands and options.
 #include "command_tree.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <iterator>
 
@@ -81,6 +83,10 @@ ProgramFacts facts_of(const CLI::App& program) {
         option.words = pages;
       }
   return facts;
+}
+
+std::string in_one_line(const std::vector<std::string>& words) {
+  return fmt::format("{}", fmt::join(words, " "));
 }
 
 std::string page_name(const CommandFacts* command) {

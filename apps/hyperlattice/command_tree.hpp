@@ -50,6 +50,9 @@ std::vector<OptionFacts> shared_options_of(const ProgramFacts& facts);
 /// Returns the arguments of a command, such as SCENE.
 std::vector<OptionFacts> arguments_of(const CommandFacts& command);
 
+/// Returns the words with a blank between them.
+std::string in_one_line(const std::vector<std::string>& words);
+
 /// Returns the name of a command's manual page, "hyperlattice-run", or of the program's, if null.
 std::string page_name(const CommandFacts* command);
 

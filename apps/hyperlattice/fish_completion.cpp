@@ -24,11 +24,8 @@ std::string proposal(const OptionFacts& option) {
       return " -f -a '(hyperlattice plugins --names 2>/dev/null)'";
     case ValueKind::lattice:
       return " -f -a '(hyperlattice plugins --names 2>/dev/null | string match \"lattices.*\")'";
-    case ValueKind::words: {
-      std::string words;
-      for (const std::string& word : option.words) words += (words.empty() ? "" : " ") + word;
-      return " -f -a " + in_quotes(words);
-    }
+    case ValueKind::words:
+      return " -f -a " + in_quotes(in_one_line(option.words));
     case ValueKind::none:
       break;
   }

@@ -29,11 +29,8 @@ std::string action(const OptionFacts& option) {
       return "_hyperlattice_components";
     case ValueKind::lattice:
       return "_hyperlattice_components lattices.";
-    case ValueKind::words: {
-      std::string words;
-      for (const std::string& word : option.words) words += (words.empty() ? "" : " ") + word;
-      return "(" + words + ")";
-    }
+    case ValueKind::words:
+      return "(" + in_one_line(option.words) + ")";
     case ValueKind::none:
       break;
   }

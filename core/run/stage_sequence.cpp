@@ -113,8 +113,7 @@ void StageSequence::solve_stage(const PlannedStage& stage) {
       missing > nearly * std::abs(stage.plan.end_time))
     throw RunError(
         fmt::format("{} ({}) ended under the loads of {:.6g} s, and not of its end_time, {:.6g} s, "
-                    "at which the "
-                    "next stage begins",
+                    "at which the next stage begins",
                     stage.stage->component->type(), stage.stage->pointer, simulation_.time(),
                     stage.plan.end_time));
   if (stage.plan.at_rest) simulation_.reset_energy_balance();

@@ -1,6 +1,7 @@
 // Damage that grows between states of rest (solvers.static), by the bar whose curve of softening is
 // known in closed form (docs/theory/cohesive.md), in bars that soften slowly and in longer ones
 // that snap back, and by steps in time that go on from a state of rest.
+#include <support/cohesive_bar.hpp>
 #include <support/rest.hpp>
 #include <support/scenes.hpp>
 
@@ -15,7 +16,7 @@ namespace damage_at_rest_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
-constexpr double young = 1e10, strength = 1e7, spacing = 1e-3;
+using cohesive_bar::spacing, cohesive_bar::strength, cohesive_bar::young;
 
 double modulus(double poisson) {
   return young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson));
@@ -38,18 +39,7 @@ struct Bar {
 
   std::string text() const {
     const auto material = [&](double share, const Keys& more) {
-      return Keys{{"young", young},
-                  {"density", 2500},
-                  {"poisson", poisson},
-                  {"membrane", poisson < 0.25 ? "I-m" : "none"},
-                  {"failure", Keys{{"type", "failures.cohesive"},
-                                   {"strength", share * strength},
-                                   {"fracture_energy",
-                                    toughness(poisson, length) * (1 + 0.175 * spacing / length)},
-                                   {"length", length},
-                                   {"intact_near_supports", false}}
-                                  .json()}} +
-             more;
+      return cohesive_bar::cohesive(poisson, length, {{"strength", share * strength}}) + more;
     };
     SceneBuilder scene;
     scene.key("precision", precision)

@@ -1,5 +1,6 @@
 // Damage in partial cells: a round bar, whose surface cuts through cells, has the strength of its
 // material over the area of its circle, and a crack through it takes its fracture energy.
+#include <support/cohesive_bar.hpp>
 #include <support/rest.hpp>
 #include <support/scenes.hpp>
 
@@ -15,7 +16,8 @@ namespace damage_partial_cells_test {
 using namespace hyperlattice;
 using namespace hyperlattice::test;
 
-constexpr double young = 1e10, strength = 1e7, spacing = 1e-3, length = 3e-3, radius = 2.6e-3;
+using cohesive_bar::spacing, cohesive_bar::strength, cohesive_bar::young;
+constexpr double length = 3e-3, radius = 2.6e-3;
 
 /// Largest force over strength and area, and what the crack took over toughness and area.
 struct Bounds {
@@ -27,17 +29,7 @@ Bounds pull(const char* boundary, double poisson) {
   const double modulus = young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson)),
                toughness = 3.6 * length * strength * strength / modulus, half = 2 * length;
   const auto material = [&](double share, const Keys& more) {
-    return Keys{{"young", young},
-                {"density", 2500},
-                {"poisson", poisson},
-                {"membrane", poisson < 0.25 ? "I-m" : "none"},
-                {"failure", Keys{{"type", "failures.cohesive"},
-                                 {"strength", share * strength},
-                                 {"fracture_energy", toughness * (1 + 0.175 * spacing / length)},
-                                 {"length", length},
-                                 {"intact_near_supports", false}}
-                                .json()}} +
-           more;
+    return cohesive_bar::cohesive(poisson, length, {{"strength", share * strength}}) + more;
   };
   const Json bar = {
       {"cylinder", {{"start", {0, 0, 0}}, {"end", {2 * half, 0, 0}}, {"radius", radius}}}};

@@ -31,9 +31,9 @@ class ExtentProbe {
         .nonzero()
         .equation(
             "over the particles of the region with q_i > above: count; mean, min and max of the "
-            "components of X_i - from, of distance = |X_i - from| and, with along, of along . (X_i "
-            "- "
-            "from) / |along|, X_i the place at rest; 0 if there is no such particle")
+            "components of X_i - from, of distance = |X_i - from| and, with along, of "
+            "along . (X_i - from) / |along|, X_i the place at rest; 0 if there is no such "
+            "particle")
         .restrictions("the quantity is one number: a vector or a tensor needs a component");
     return schema.check([](const Options& o, const FaultSink& faults) {
       check_quantity_options(o, faults);

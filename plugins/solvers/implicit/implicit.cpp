@@ -38,8 +38,7 @@ class Implicit {
         .restrictions(
             "No nodal volumes of lists. Springs break at the ends of steps. Damage of cohesive "
             "materials follows the stress without delay. Loads act by their mean over each step; "
-            "those that answer to "
-            "the motion, by their answer to the mean motion.")
+            "those that answer to the motion, by their answer to the mean motion.")
         .add<&Options::end_time>("end_time", "s",
                                  "instant at which the stage ends, counted from the start of the "
                                  "whole run, not of the stage")
