@@ -87,4 +87,18 @@ TEST(OpeningControl, EndsAtItsEnd) {
     EXPECT_NEAR(openings[n], std::min(end, 5e-7 * static_cast<double>(n)), 1e-3 * 5e-7);
 }
 
+/// A step far longer than any opening is cut until the first failure is met. It must not be taken
+/// for an error that is allowed.
+TEST(OpeningControl, AStepOfAMetreIsCut) {
+  Motion run(chain({{"opening_from", "x_min"},
+                    {"opening_to", slice(4.4e-3, 4.6e-3)},
+                    {"opening_step", 1.0},
+                    {"most_cutbacks", 40}}));
+  run.go([] {});
+  const std::vector<Breakage>& broken = run.simulation.breakages();
+  ASSERT_EQ(broken.size(), 2U);
+  EXPECT_NEAR(broken.front().elongation, spacing * limit, 1.1e-3 * spacing * limit);
+  EXPECT_NEAR(run.end(), pull, 1e-12);
+}
+
 }  // namespace opening_control_test

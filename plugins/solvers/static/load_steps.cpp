@@ -14,7 +14,7 @@ LoadSteps::LoadSteps(const StaticProblem& problem, const SolverHost& host, Newto
       u_(problem.state, problem.state + problem.grid.numbers()),
       length_(options.longest) {
   if (!options.opening) return;
-  control_.emplace(problem, newton, *options.opening, options.longest);
+  control_.emplace(problem, newton, *options.opening);
   opening_ = control_->reached();
 }
 
@@ -33,7 +33,7 @@ bool LoadSteps::run() {
 /// damage has grown; with a control, at the opening `next`. `reached`: its fraction of the load.
 bool LoadSteps::search(double next, double& reached) {
   if (control_) {
-    found_ = control_->solve(next, reached, u_);
+    found_ = control_->solve(next, length_, reached, u_);
     return found_.at_rest && !newton_.stopped();
   }
   found_ = problem_.damages

@@ -14,8 +14,8 @@ constexpr double near_enough = 1e-3;                      // of a step of the op
 }  // namespace
 
 OpeningControl::OpeningControl(const StaticProblem& problem, Newton& newton,
-                               const Opening::Ends& ends, double step)
-    : problem_(problem), newton_(newton), opening_(problem, ends), step_(step) {
+                               const Opening::Ends& ends)
+    : problem_(problem), newton_(newton), opening_(problem, ends) {
   start_ = reached_ = opening_.of(Field(problem.state, problem.state + problem.grid.numbers()));
 }
 
@@ -50,7 +50,7 @@ double OpeningControl::next_share(const Point& now, const Point* before, double 
                     std::min(1.0, std::max(most * now.share, 2 * first_share)));
 }
 
-Outcome OpeningControl::solve(double wanted, double& share, Field& displacement) {
+Outcome OpeningControl::solve(double wanted, double step, double& share, Field& displacement) {
   constexpr int most_alternations = 1000;
   constexpr double still = 1e-4;  // changes of damage
   Field u = displacement;
@@ -76,7 +76,7 @@ Outcome OpeningControl::solve(double wanted, double& share, Field& displacement)
       if (problem_.damages) problem_.restore_damage();
       return {.why = "the opening from `opening_from` to `opening_to` does not grow with the load"};
     }
-    const bool is_near = std::abs(now.opening - wanted) <= near_enough * step_ ||
+    const bool is_near = std::abs(now.opening - wanted) <= near_enough * step ||
                          (now.opening < wanted && at == 1 && next == 1);
     double change = 0;
     if (problem_.damages)

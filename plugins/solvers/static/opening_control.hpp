@@ -15,14 +15,14 @@ namespace hyperlattice::equilibrium {
 
 class OpeningControl {
  public:
-  /// `step`: between two states of rest, m. The present state is that of the problem.
-  OpeningControl(const StaticProblem& problem, Newton& newton, const Opening::Ends& ends,
-                 double step);
+  /// The present state is that of the problem.
+  OpeningControl(const StaticProblem& problem, Newton& newton, const Opening::Ends& ends);
 
   /// Changes the displacements from those of the accepted state of rest, at the fraction `share` of
   /// the load, to those at rest with the opening `wanted`, m, and `share` to its fraction. Where
-  /// the whole load opens less, the result is the state under the whole load.
-  Outcome solve(double wanted, double& share, Field& displacement);
+  /// the whole load opens less, the result is the state under the whole load. `step`: growth of
+  /// the opening from one state to the next, m, of which the opening has an error of a thousandth.
+  Outcome solve(double wanted, double step, double& share, Field& displacement);
   /// Returns the opening of the state that was found last, or of the stage's start, m.
   double reached() const { return reached_; }
 
@@ -36,7 +36,7 @@ class OpeningControl {
   const StaticProblem& problem_;
   Newton& newton_;
   Opening opening_;
-  double step_, start_, reached_;  // m
+  double start_, reached_;  // m
 };
 
 }  // namespace hyperlattice::equilibrium
