@@ -89,11 +89,11 @@ TEST(OpeningControl, EndsAtItsEnd) {
 
 /// A step far longer than any opening is cut until the first failure is met. It must not be taken
 /// for an error that is allowed.
-TEST(OpeningControl, AStepOfAMetreIsCut) {
+TEST(OpeningControl, AStepOfACentimetreIsCut) {
   Motion run(chain({{"opening_from", "x_min"},
                     {"opening_to", slice(4.4e-3, 4.6e-3)},
-                    {"opening_step", 1.0},
-                    {"most_cutbacks", 40}}));
+                    {"opening_step", 0.01},
+                    {"most_cutbacks", 20}}));
   run.go([] {});
   const std::vector<Breakage>& broken = run.simulation.breakages();
   ASSERT_EQ(broken.size(), 2U);
