@@ -7,7 +7,8 @@
 #
 #   hyperlattice_add_material(materials.elastic elastic.cpp LAW elastic.hpp Elastic)
 #     also builds the kernels of the law, once for each instruction set. The program chooses
-#     one of them at run time.
+#     one of them at run time. With several laws, LAW law.hpp One Other, the material chooses
+#     between kernels_for_processor<One>(choice) and the like.
 
 # Sets the flags of kernels: `variants`, flags_<variant>, `kernel_flags`.
 macro(hyperlattice_kernel_flags)
@@ -40,8 +41,12 @@ endfunction()
 
 function(hyperlattice_add_material type)
   cmake_parse_arguments(ARG "" "" "LAW" ${ARGN})
-  list(GET ARG_LAW 0 header)
-  list(GET ARG_LAW 1 law)
+  list(POP_FRONT ARG_LAW header)
+  list(LENGTH ARG_LAW laws)
+  set(define HYPERLATTICE_KERNELS)
+  if(laws GREATER 1)
+    set(define HYPERLATTICE_KERNELS_OF)
+  endif()
   hyperlattice_add_plugin(${type} ${ARG_UNPARSED_ARGUMENTS})
   target_include_directories(${type} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
   hyperlattice_kernel_flags()
@@ -55,18 +60,21 @@ function(hyperlattice_add_material type)
       list(APPEND flags_${variant} -fno-sanitize=all)
     endforeach()
   endif()
-  foreach(variant ${variants})
-    set(file ${CMAKE_CURRENT_BINARY_DIR}/${type}.kernels.${variant}.cpp)
-    file(CONFIGURE OUTPUT ${file} @ONLY CONTENT
+  foreach(law ${ARG_LAW})
+    string(REPLACE "::" "_" law_name ${law})
+    foreach(variant ${variants})
+      set(file ${CMAKE_CURRENT_BINARY_DIR}/${type}.${law_name}.${variant}.cpp)
+      file(CONFIGURE OUTPUT ${file} @ONLY CONTENT
 "// Generated: the kernels of @law@ for the instruction set '@variant@'.
 #define HYPERLATTICE_INSTRUCTIONS @variant@
 #include <hyperlattice/kernels/sweep.hpp>
 #include \"@header@\"
-HYPERLATTICE_KERNELS(@law@)
+@define@(@law@)
 ")
-    target_sources(${type} PRIVATE ${file})
-    set_source_files_properties(${file} PROPERTIES COMPILE_OPTIONS
-      "${flags_${variant}};${kernel_flags}")
+      target_sources(${type} PRIVATE ${file})
+      set_source_files_properties(${file} PROPERTIES COMPILE_OPTIONS
+        "${flags_${variant}};${kernel_flags}")
+    endforeach()
   endforeach()
   if("avx2" IN_LIST variants)
     target_compile_definitions(${type} PRIVATE HYPERLATTICE_X86_KERNELS)

@@ -21,7 +21,7 @@ bool is_identifier(std::string_view text) {
 
 // Returns whether each function of a family's table is set.
 bool whole(const LatticeFunctions& f) { return f.build; }
-bool whole(const MaterialFunctions& f) { return f.constants && f.kernels && !f.law.empty(); }
+bool whole(const MaterialFunctions& f) { return f.constants && f.kernels && f.law; }
 bool whole(const FailureFunctions& f) {
   if (f.surface.inputs || f.surface.ratios)
     return f.surface.inputs && f.surface.ratios && !f.alarm && !f.review && f.memory == 0;

@@ -11,6 +11,7 @@ namespace hyperlattice {
 
 struct Law {
   const Stage* stage = nullptr;  ///< the first material with the law
+  std::string_view name;
   KernelSet kernels;
 };
 

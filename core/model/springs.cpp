@@ -36,12 +36,14 @@ double rest_length(const Model& model, std::uint32_t spring_class) {
   return found == model.springs.neighbours.end() ? 0 : found->rest_length;
 }
 
-/// Returns the kernels of a law. Throws OutsideError if they are not whole, and InputError if the
-/// law has no kernel for the body.
-KernelSet kernels_of(const Stage& stage, const KernelChoice& choice) {
+/// Returns the kernels of a material's law. Throws OutsideError if they are not whole, and
+/// InputError if the law has no kernel for the body.
+KernelSet kernels_of(const Material& material, const KernelChoice& choice) {
+  const Stage& stage = *material.stage;
   KernelSet kernels;
   call(stage, "kernels", [&](const Complaint& why) {
-    return stage.functions<MaterialFunctions>().kernels(choice, kernels, why);
+    return stage.functions<MaterialFunctions>().kernels(material.component.get(), choice, kernels,
+                                                        why);
   });
   const bool remembers = kernels.memory > 0;
   if (kernels.ask == nullptr || kernels.take == nullptr || kernels.memory > max_law_memory + 2 ||
@@ -150,15 +152,15 @@ void find_laws(Model& model) {
   SpringTable& springs = model.springs;
   for (Material& material : model.materials) {
     const Stage& stage = *material.stage;
+    const std::string_view name =
+        stage.functions<MaterialFunctions>().law(material.component.get());
     const auto has_law = [&](const Law& law) {
-      return law.stage->component->path == stage.component->path &&
-             law.stage->functions<MaterialFunctions>().law ==
-                 stage.functions<MaterialFunctions>().law;
+      return law.stage->component->path == stage.component->path && law.name == name;
     };
     const auto found = std::find_if(springs.laws.begin(), springs.laws.end(), has_law);
     material.law = static_cast<std::uint32_t>(found - springs.laws.begin());
     const bool is_new = found == springs.laws.end();
-    if (is_new) springs.laws.push_back({&stage, kernels_of(stage, springs.choice)});
+    if (is_new) springs.laws.push_back({&stage, name, kernels_of(material, springs.choice)});
     KernelSet& kernels = springs.laws[material.law].kernels;
     if (const std::size_t declared = stage.component->info.fields.size();
         declared != kernels.fields || (kernels.fields > 0 && kernels.read_fields == nullptr))
@@ -170,7 +172,7 @@ void find_laws(Model& model) {
     springs.softens = springs.softens || kernels.softens;
     KernelChoice row = springs.choice;  // linearise takes listed springs as rows of one spring
     row.listed = false;
-    if (springs.choice.listed) kernels.linearise = kernels_of(stage, row).linearise;
+    if (springs.choice.listed) kernels.linearise = kernels_of(material, row).linearise;
   }
 }
 

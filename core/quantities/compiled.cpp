@@ -23,7 +23,7 @@ inline double result_of(const Instruction& instruction, double a, double b, doub
     case Operation::divide:
       return a / b;
     case Operation::power:
-      return std::pow(a, b);
+      return power_of(a, b);
     case Operation::negate:
       return -a;
     case Operation::less:

@@ -59,8 +59,8 @@ double slope_of(Function function, double x) {
 /// no value: the logarithm of a negative base.
 double slope_of_power(const Change& a, const Change& b) {
   double slope = 0;
-  if (a.slope != 0) slope += b.value * std::pow(a.value, b.value - 1) * a.slope;
-  if (b.slope != 0) slope += std::pow(a.value, b.value) * std::log(a.value) * b.slope;
+  if (a.slope != 0) slope += b.value * power_of(a.value, b.value - 1) * a.slope;
+  if (b.slope != 0) slope += power_of(a.value, b.value) * std::log(a.value) * b.slope;
   return slope;
 }
 

@@ -76,7 +76,6 @@ class Translation {
     for (std::size_t n = 0; n < list.GetSize() && tokens[n].Cmd != mu::cmEND && good(); ++n)
       take(tokens[n], places.data());
     if (good() && stack_.size() != 1) fail("it is a list of several values");
-    if (good() && code_.size() > most_instructions) fail("it has too many operations");
     if (!good()) return {{}, {}, false, std::move(problem_)};
     const Term result = stack_.back();
     if (result.place + 1u != code_.size()) {  // a constant or an input that stands before others
@@ -123,7 +122,8 @@ class Translation {
       one = {};
       one.value = value;
     }
-    if (code_.size() > most_instructions) return fail("it has too many operations");
+    // One place is left for the result.
+    if (code_.size() + 1 >= most_instructions) return fail("it has too many operations");
     result.place = static_cast<std::uint16_t>(code_.size());
     code_.push_back(one);
     stack_.push_back(result);

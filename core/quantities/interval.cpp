@@ -34,15 +34,15 @@ Interval quotient(const Interval& a, const Interval& b) {
 
 Interval power(const Interval& a, const Interval& b) {
   if (!b.is_point())
-    return a.low > 0 ? hull({std::pow(a.low, b.low), std::pow(a.low, b.high),
-                             std::pow(a.high, b.low), std::pow(a.high, b.high),
-                             a.low < 1 && a.high > 1 ? 1 : std::pow(a.low, b.low)})
+    return a.low > 0 ? hull({power_of(a.low, b.low), power_of(a.low, b.high),
+                             power_of(a.high, b.low), power_of(a.high, b.high),
+                             a.low < 1 && a.high > 1 ? 1 : power_of(a.low, b.low)})
                      : Interval{};
   const double n = b.low;
-  if (a.low >= 0 && (n > 0 || a.low > 0)) return hull({std::pow(a.low, n), std::pow(a.high, n)});
+  if (a.low >= 0 && (n > 0 || a.low > 0)) return hull({power_of(a.low, n), power_of(a.high, n)});
   if (n != std::trunc(n) || n < 0) return {};
-  if (std::fmod(n, 2) != 0) return hull({std::pow(a.low, n), std::pow(a.high, n)});
-  return hull({std::pow(a.low, n), std::pow(a.high, n), a.high >= 0 ? 0 : std::pow(a.high, n)});
+  if (std::fmod(n, 2) != 0) return hull({power_of(a.low, n), power_of(a.high, n)});
+  return hull({power_of(a.low, n), power_of(a.high, n), a.high >= 0 ? 0 : power_of(a.high, n)});
 }
 
 /// Returns the interval of a comparison, 0 and 1, from what is certain.

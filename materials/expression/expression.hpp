@@ -1,16 +1,15 @@
-// The law of a spring whose force is an expression. The functions are those of the expression that
-// the material has registered (spring_force.hpp).
+// The law of springs whose force is an expression of the elongation and its rate. Its functions are
+// those of the expressions that the material has registered (spring_force.hpp).
 #pragma once
 
-#include <hyperlattice/law.hpp>
+#include "elastic_expression.hpp"
 
 struct ExpressionLaw {
-  struct Constants {
-    double number;  ///< of the registered expression
-  };
-  /// The stored energy, J, at the elongation `at`, m: the integral of the force without its rate.
+  using Constants = ElasticExpressionLaw::Constants;
   struct Memory {
+    /// The stored energy, J, at the elongation `at`, m: the integral of the force without its rate.
     double energy, at;
+    double force;  ///< at the last update, N
   };
 
   static void update(const hyperlattice::SpringState& s, const Constants& c, Memory& m);

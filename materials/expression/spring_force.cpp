@@ -3,6 +3,7 @@
 #include "expression.hpp"
 
 #include <quantities/derivative.hpp>
+#include <quantities/lanes.hpp>
 
 #include <algorithm>
 #include <array>
@@ -25,6 +26,37 @@ Numbers inputs_of(const SpringState& spring) {
           spring.rate,       spring.rate / spring.rest_length,
           spring.stiffness,  spring.rest_length};
 }
+
+SpringState at_rest(SpringState spring) {
+  spring.rate = 0;
+  return spring;
+}
+
+/// Four numbers.
+struct Four {
+  double lane[4];
+
+  Four() = default;
+  explicit Four(double all) : Four(all, all, all, all) {}
+  Four(double a, double b, double c, double d) : lane{a, b, c, d} {}
+
+  template <class Operation>
+  static Four of(const Operation& operation) {
+    return {operation(0), operation(1), operation(2), operation(3)};
+  }
+  friend Four operator+(const Four& a, const Four& b) {
+    return of([&](std::size_t n) { return a.lane[n] + b.lane[n]; });
+  }
+  friend Four operator-(const Four& a, const Four& b) {
+    return of([&](std::size_t n) { return a.lane[n] - b.lane[n]; });
+  }
+  friend Four operator*(const Four& a, const Four& b) {
+    return of([&](std::size_t n) { return a.lane[n] * b.lane[n]; });
+  }
+  friend Four operator/(const Four& a, const Four& b) {
+    return of([&](std::size_t n) { return a.lane[n] / b.lane[n]; });
+  }
+};
 
 /// The registered expressions. Entries do not move, so that readers need no lock.
 std::array<std::atomic<const SpringForce*>, most_kept> all_kept;
@@ -53,30 +85,39 @@ double SpringForce::viscosity_at(const SpringState& spring) const {
   return derivative(force, inputs_of(spring), direction);
 }
 
-double SpringForce::energy_since(const SpringState& spring, double from) const {
-  SpringState at = spring;
-  at.rate = 0;
-  const double to = spring.elongation;
-  const auto value = [&](const Compiled& expression, double u) {
-    at.elongation = u;
-    return expression(inputs_of(at));
-  };
-  if (to == from) return 0;
-  if (energy) return value(*energy, to) - value(*energy, from);
-  // Panels of Gauss with three points, which are exact for polynomials up to the fifth power. A
-  // step in time is far shorter than a panel.
+// Panels of Gauss with three points, which are exact for polynomials up to the fifth power. A step
+// in time is far shorter than a panel. The fourth lane of the first panel has the force.
+SpringForce::Advance SpringForce::advance(const SpringState& spring, double from) const {
   constexpr double widest = 1e-3, most_panels = 10'000;  // of the rest length
   constexpr double outer = 0.774596669241483377, weight_outer = 5.0 / 18, weight_middle = 4.0 / 9;
+  const double to = spring.elongation;
+  Advance result;
+  const auto force_only = [&](double energy_change) {
+    return Advance{energy_change, force_at(spring)};
+  };
+  if (to == from) return force_only(0);
+  if (energy) {
+    SpringState before = spring;
+    before.elongation = from;
+    return force_only((*energy)(inputs_of(at_rest(spring))) -
+                      (*energy)(inputs_of(at_rest(before))));
+  }
   const double panels = std::clamp(std::ceil(std::abs(to - from) / (widest * spring.rest_length)),
                                    1.0, most_panels),
                width = (to - from) / panels;
-  double sum = 0;
-  for (double n = 0.5; n < panels; ++n) {
-    const double middle = from + n * width, reach = outer * width / 2;
-    sum += width * (weight_middle * value(force, middle) +
-                    weight_outer * (value(force, middle - reach) + value(force, middle + reach)));
+  for (double n = 0; n < panels; ++n) {
+    const double middle = from + (n + 0.5) * width, reach = outer * width / 2;
+    const Four points{middle, middle - reach, middle + reach, to},
+        rates = n == 0 ? Four{0, 0, 0, spring.rate} : Four(0), rest_length(spring.rest_length);
+    const Four inputs[input_count] = {
+        points,     points / rest_length, rates, rates / rest_length, Four(spring.stiffness),
+        rest_length};
+    const Four forces = values_of<Four>(force, inputs);
+    result.energy +=
+        width * (weight_middle * forces.lane[0] + weight_outer * (forces.lane[1] + forces.lane[2]));
+    if (n == 0) result.force = forces.lane[3];
   }
-  return sum;
+  return result;
 }
 
 std::size_t keep(const std::string& text, const SpringForce& force) {
@@ -101,14 +142,16 @@ using hyperlattice::SpringState;
 using hyperlattice::spring_expression::kept;
 
 void ExpressionLaw::update(const SpringState& s, const Constants& c, Memory& m) {
-  m.energy += kept(c.number).energy_since(s, m.at);
+  const auto advance = kept(c.number).advance(s, m.at);
+  m.energy += advance.energy;
   m.at = s.elongation;
+  m.force = advance.force;
 }
-double ExpressionLaw::force(const SpringState& s, const Constants& c, const Memory&) {
-  return kept(c.number).force_at(s);
+double ExpressionLaw::force(const SpringState&, const Constants&, const Memory& m) {
+  return m.force;
 }
 double ExpressionLaw::energy(const SpringState& s, const Constants& c, const Memory& m) {
-  return m.energy + kept(c.number).energy_since(s, m.at);
+  return s.elongation == m.at ? m.energy : m.energy + kept(c.number).energy_since(s, m.at);
 }
 double ExpressionLaw::tangent(const SpringState& s, const Constants& c, const Memory&) {
   return kept(c.number).tangent_at(s);

@@ -36,7 +36,19 @@ struct SpringForce {
   /// Returns the derivative of the force by the rate, N s/m.
   double viscosity_at(const SpringState& spring) const;
   /// Returns the energy, J, at the spring's elongation less that at the elongation `from`.
-  double energy_since(const SpringState& spring, double from) const;
+  double energy_since(const SpringState& spring, double from) const {
+    return advance(spring, from).energy;
+  }
+
+  struct Advance {
+    double energy = 0;  ///< J, at the spring's elongation less that at the elongation before
+    double force = 0;   ///< N, at the spring's elongation and rate
+  };
+  /// Returns both in one evaluation of the expression, if the spring has moved by a short way.
+  Advance advance(const SpringState& spring, double from) const;
+
+  /// Returns whether the force depends on the rate of the elongation.
+  bool has_rate() const { return force.uses(rate) || force.uses(strain_rate); }
 };
 
 /// Keeps the expressions until the process ends, and returns their number. `text` names them: equal

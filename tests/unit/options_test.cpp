@@ -261,8 +261,8 @@ TEST(Options, AFieldBelongsToAMaterialAndHasANameOfItsOwn) {
       [](const void*, const LatticeFacts&, MaterialConstants&, const Complaint&) noexcept {
         return true;
       },
-      [](const KernelChoice&, KernelSet&, const Complaint&) noexcept { return true; }, "none",
-      nullptr};
+      [](const void*, const KernelChoice&, KernelSet&, const Complaint&) noexcept { return true; },
+      [](const void*) noexcept -> std::string_view { return "none"; }, nullptr};
   ComponentInfo info = detail::describe<Renamed>();
   const auto fault = [&](FieldInfo field) {
     const FieldInfo fields[] = {field};

@@ -102,8 +102,10 @@ struct LatticeFacts {
 struct MaterialFunctions {
   bool (*constants)(const void* material, const LatticeFacts& lattice, MaterialConstants& constants,
                     const Complaint& why) noexcept;
-  bool (*kernels)(const KernelChoice& choice, KernelSet& kernels, const Complaint& why) noexcept;
-  std::string_view law;  ///< name; materials with one law share kernels
+  bool (*kernels)(const void* material, const KernelChoice& choice, KernelSet& kernels,
+                  const Complaint& why) noexcept;
+  /// Name; materials of one library with one law share kernels.
+  std::string_view (*law)(const void* material) noexcept;
   /// Null: the stable step of the elastic springs holds.
   bool (*stable_step)(const void* material, double elastic_step, double& step,
                       const Complaint& why) noexcept;
@@ -111,16 +113,16 @@ struct MaterialFunctions {
 
 /// A material class has: MaterialConstants constants(const LatticeFacts&) const, which throws if E,
 /// nu and membrane do not fit (a sentence whose first word is an option's name blames that option);
-/// static KernelSet kernels(const KernelChoice&); static constexpr std::string_view law. It may
-/// have double stable_time_step(double elastic_step) const: the largest stable step, s, of a law
-/// that adds to the elastic forces (viscosity); elastic_step is the stable step of the elastic
-/// springs.
+/// static KernelSet kernels(const KernelChoice&); static constexpr std::string_view law. Both are
+/// not static if the options choose the law. It may have double stable_time_step(double
+/// elastic_step) const: the largest stable step, s, of a law that adds to the elastic forces
+/// (viscosity); elastic_step is the stable step of the elastic springs.
 template <class T>
 concept MaterialComponent = requires(const T& material, const LatticeFacts& lattice,
                                      const KernelChoice& choice) {
   { material.constants(lattice) } -> std::convertible_to<MaterialConstants>;
-  { T::kernels(choice) } -> std::convertible_to<KernelSet>;
-  { T::law } -> std::convertible_to<std::string_view>;
+  { material.kernels(choice) } -> std::convertible_to<KernelSet>;
+  { material.law } -> std::convertible_to<std::string_view>;
 };
 
 namespace detail {
@@ -145,10 +147,14 @@ struct FunctionsOf<T> {
         return guarded(why,
                        [&] { constants = static_cast<const T*>(material)->constants(lattice); });
       },
-      [](const KernelChoice& choice, KernelSet& kernels, const Complaint& why) noexcept {
-        return guarded(why, [&] { kernels = T::kernels(choice); });
+      [](const void* material, const KernelChoice& choice, KernelSet& kernels,
+         const Complaint& why) noexcept {
+        return guarded(why, [&] { kernels = static_cast<const T*>(material)->kernels(choice); });
       },
-      T::law, stable_step_of<T>()};
+      [](const void* material) noexcept -> std::string_view {
+        return static_cast<const T*>(material)->law;
+      },
+      stable_step_of<T>()};
 };
 }  // namespace detail
 }  // namespace hyperlattice

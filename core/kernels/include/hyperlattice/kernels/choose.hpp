@@ -15,20 +15,56 @@ hyperlattice::KernelSet hyperlattice_kernels_avx512(const hyperlattice::KernelCh
 
 namespace hyperlattice {
 
+// The kernels of each law of a material that has several, in the files of the instruction sets.
+namespace baseline {
+template <class Law>
+KernelSet kernels_of_law(const KernelChoice& choice);
+}
+namespace avx2 {
+template <class Law>
+KernelSet kernels_of_law(const KernelChoice& choice);
+}
+namespace avx512 {
+template <class Law>
+KernelSet kernels_of_law(const KernelChoice& choice);
+}
+
+namespace detail {
+using MakeKernels = KernelSet(const KernelChoice& choice);
+inline KernelSet widest_kernels(const KernelChoice& choice, MakeKernels& baseline,
+                                MakeKernels& avx2, MakeKernels& avx512) {
+  switch (processor_instructions()) {
+    case Instructions::avx512:
+      return avx512(choice);
+    case Instructions::avx2:
+      return avx2(choice);
+    case Instructions::baseline:
+      break;
+  }
+  return baseline(choice);
+}
+}  // namespace detail
+
 /// Returns the kernels with the widest instructions that the processor can run, or with narrower
 /// ones if the environment has HYPERLATTICE_INSTRUCTIONS=baseline or avx2.
 inline KernelSet kernels_for_processor(const KernelChoice& choice) {
 #if defined(HYPERLATTICE_X86_KERNELS)
-  switch (processor_instructions()) {
-    case Instructions::avx512:
-      return hyperlattice_kernels_avx512(choice);
-    case Instructions::avx2:
-      return hyperlattice_kernels_avx2(choice);
-    case Instructions::baseline:
-      break;
-  }
-#endif
+  return detail::widest_kernels(choice, hyperlattice_kernels_baseline, hyperlattice_kernels_avx2,
+                                hyperlattice_kernels_avx512);
+#else
   return hyperlattice_kernels_baseline(choice);
+#endif
+}
+
+/// Returns the same for one law of a material that has several (CMake: LAW law.hpp Law OtherLaw).
+template <class Law>
+KernelSet kernels_for_processor(const KernelChoice& choice) {
+#if defined(HYPERLATTICE_X86_KERNELS)
+  return detail::widest_kernels(choice, baseline::kernels_of_law<Law>, avx2::kernels_of_law<Law>,
+                                avx512::kernels_of_law<Law>);
+#else
+  return baseline::kernels_of_law<Law>(choice);
+#endif
 }
 
 }  // namespace hyperlattice

@@ -375,17 +375,26 @@ class Kernels {
   }
 };
 
-}  // namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS
-
 #define HYPERLATTICE_TEXT_OF(name) #name
 #define HYPERLATTICE_TEXT(name) HYPERLATTICE_TEXT_OF(name)
 #define HYPERLATTICE_JOIN_OF(a, b) a##b
 #define HYPERLATTICE_JOIN(a, b) HYPERLATTICE_JOIN_OF(a, b)
 
+template <class Law>
+KernelSet kernels_of_law(const KernelChoice& choice) {
+  return Kernels<Law>::of(choice, HYPERLATTICE_TEXT(HYPERLATTICE_INSTRUCTIONS));
+}
+
+}  // namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS
+
 /// Defines hyperlattice_kernels_avx2(choice), or its like; used once in each generated file.
 #define HYPERLATTICE_KERNELS(Law)                                                              \
   hyperlattice::KernelSet HYPERLATTICE_JOIN(hyperlattice_kernels_, HYPERLATTICE_INSTRUCTIONS)( \
       const hyperlattice::KernelChoice& choice) {                                              \
-    return hyperlattice::HYPERLATTICE_INSTRUCTIONS::Kernels<Law>::of(                          \
-        choice, HYPERLATTICE_TEXT(HYPERLATTICE_INSTRUCTIONS));                                 \
+    return hyperlattice::HYPERLATTICE_INSTRUCTIONS::kernels_of_law<Law>(choice);               \
   }
+
+/// The same for one law of several: defines kernels_of_law<Law>(choice).
+#define HYPERLATTICE_KERNELS_OF(Law)                                                             \
+  template hyperlattice::KernelSet hyperlattice::HYPERLATTICE_INSTRUCTIONS::kernels_of_law<Law>( \
+      const hyperlattice::KernelChoice& choice);
