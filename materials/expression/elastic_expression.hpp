@@ -43,10 +43,8 @@ Real for_each_spring(const SpringOf<Real>& springs, const OfSpring& number) {
 template <template <class> class Pack>
 Pack<double> forces_of(const Compiled& force, const SpringOf<Pack<double>>& springs) {
   using Doubles = Pack<double>;
-  const Doubles none(0.0);
-  const Doubles inputs[input_count] = {
-      springs.elongation, springs.elongation / springs.rest_length, none, none, springs.stiffness,
-      springs.rest_length};
+  const std::array<Doubles, input_count> inputs =
+      inputs_of(springs.stiffness, springs.rest_length, springs.elongation, Doubles(0.0));
   return values_of<Doubles>(force, inputs);
 }
 

@@ -21,10 +21,8 @@ constexpr std::size_t most_kept = 10'000;
 
 using Numbers = std::array<double, input_count>;
 
-Numbers inputs_of(const SpringState& spring) {
-  return {spring.elongation, spring.elongation / spring.rest_length,
-          spring.rate,       spring.rate / spring.rest_length,
-          spring.stiffness,  spring.rest_length};
+Numbers numbers_of(const SpringState& spring) {
+  return inputs_of(spring.stiffness, spring.rest_length, spring.elongation, spring.rate);
 }
 
 SpringState at_rest(SpringState spring) {
@@ -69,24 +67,25 @@ std::vector<ExpressionName> input_names() {
           {"stiffness", {0, 1, -2}, {}}, {"rest_length", {1}, {}}};
 }
 
-double SpringForce::force_at(const SpringState& spring) const { return force(inputs_of(spring)); }
+double SpringForce::force_at(const SpringState& spring) const { return force(numbers_of(spring)); }
 
 double SpringForce::tangent_at(const SpringState& spring) const {
   Numbers direction{};
   direction[elongation] = 1;
   direction[strain] = 1 / spring.rest_length;
-  return derivative(force, inputs_of(spring), direction);
+  return derivative(force, numbers_of(spring), direction);
 }
 
 double SpringForce::viscosity_at(const SpringState& spring) const {
   Numbers direction{};
   direction[rate] = 1;
   direction[strain_rate] = 1 / spring.rest_length;
-  return derivative(force, inputs_of(spring), direction);
+  return derivative(force, numbers_of(spring), direction);
 }
 
 // Panels of Gauss with three points, which are exact for polynomials up to the fifth power. A step
-// in time is far shorter than a panel. The fourth lane of the first panel has the force.
+// in time is far shorter than a panel. The fourth lane has the force at
+// the end.
 SpringForce::Advance SpringForce::advance(const SpringState& spring, double from) const {
   constexpr double widest = 1e-3, most_panels = 10'000;  // of the rest length
   constexpr double outer = 0.774596669241483377, weight_outer = 5.0 / 18, weight_middle = 4.0 / 9;
@@ -99,23 +98,21 @@ SpringForce::Advance SpringForce::advance(const SpringState& spring, double from
   if (energy) {
     SpringState before = spring;
     before.elongation = from;
-    return force_only((*energy)(inputs_of(at_rest(spring))) -
-                      (*energy)(inputs_of(at_rest(before))));
+    return force_only((*energy)(numbers_of(at_rest(spring))) -
+                      (*energy)(numbers_of(at_rest(before))));
   }
   const double panels = std::clamp(std::ceil(std::abs(to - from) / (widest * spring.rest_length)),
                                    1.0, most_panels),
                width = (to - from) / panels;
   for (double n = 0; n < panels; ++n) {
     const double middle = from + (n + 0.5) * width, reach = outer * width / 2;
-    const Four points{middle, middle - reach, middle + reach, to},
-        rates = n == 0 ? Four{0, 0, 0, spring.rate} : Four(0), rest_length(spring.rest_length);
-    const Four inputs[input_count] = {
-        points,     points / rest_length, rates, rates / rest_length, Four(spring.stiffness),
-        rest_length};
+    const Four points{middle, middle - reach, middle + reach, to}, rates{0, 0, 0, spring.rate};
+    const std::array<Four, input_count> inputs =
+        inputs_of(Four(spring.stiffness), Four(spring.rest_length), points, rates);
     const Four forces = values_of<Four>(force, inputs);
     result.energy +=
         width * (weight_middle * forces.lane[0] + weight_outer * (forces.lane[1] + forces.lane[2]));
-    if (n == 0) result.force = forces.lane[3];
+    result.force = forces.lane[3];
   }
   return result;
 }

@@ -7,6 +7,7 @@
 
 #include <hyperlattice/law.hpp>
 
+#include <array>
 #include <optional>
 
 namespace hyperlattice::spring_expression {
@@ -21,6 +22,15 @@ enum Input : std::size_t {
   rest_length,
   input_count
 };
+
+/// Returns the inputs of a spring, or of a vector of springs. The product with the inverse of the
+/// rest length, which does not change, is faster than a division.
+template <class Real>
+std::array<Real, input_count> inputs_of(const Real& stiffness, const Real& length,
+                                        const Real& elongated, const Real& rate_of_it) {
+  const Real inverse = Real(1.0) / length;
+  return {elongated, elongated * inverse, rate_of_it, rate_of_it * inverse, stiffness, length};
+}
 
 /// Returns the names of these inputs with their dimensions.
 std::vector<ExpressionName> input_names();
