@@ -39,9 +39,8 @@ class ExpressionSolid {
             "and "
             "the constants; numbers with or without a unit; the operators `+ - * / ^ < <= > >= == "
             "!= && || ?:` and the functions of loads.expression. Dimensions are checked. "
-            "The energy is integrated in panels of a thousandth of the length, by Gauss's rule of "
-            "three "
-            "points")
+            "The energy is integrated by Gauss's rule of three points over ways below a thousandth "
+            "of the length, and by Gauss and Kronrod's adaptive rule over longer ones")
         .restrictions(
             "the force is zero at rest and has the slope `stiffness` there, base and cross springs "
             "alike: write it with `stiffness`. A force that gives energy back when it moves in a "

@@ -54,11 +54,15 @@ struct SpringForce {
     double energy = 0;  ///< J, at the spring's elongation less that at the elongation before
     double force = 0;   ///< N, at the spring's elongation and rate
   };
-  /// Returns both in one evaluation of the expression, if the spring has moved by a short way.
+  /// Returns both; if the spring has moved by a short way, in one evaluation of the expression.
   Advance advance(const SpringState& spring, double from) const;
 
   /// Returns whether the force depends on the rate of the elongation.
   bool has_rate() const { return force.uses(rate) || force.uses(strain_rate); }
+
+ private:
+  Advance advance_a_little(const SpringState& spring, double from) const;
+  double integral(const SpringState& spring, double from) const;
 };
 
 /// Keeps the expressions until the process ends, and returns their number. `text` names them: equal
