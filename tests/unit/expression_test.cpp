@@ -1,5 +1,6 @@
 // Expressions of quantities: values, units, dimensions, and the reasons of refusals.
 #include <quantities/expression.hpp>
+#include <quantities/lanes.hpp>
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -119,6 +120,58 @@ TEST(Expression, RefusalsSayWhy) {
   EXPECT_PRED2(says, problem("sin(1, 2)"), "takes 1 value");
   EXPECT_PRED2(says, problem("1 ? 2 : 3"), "condition");
   EXPECT_PRED2(says, problem("2 > 1 ? 3"), "do not agree");
+}
+
+/// An expression of as many operations as fit has its value, and one more is refused.
+TEST(Expression, TheLongestOneFits) {
+  const auto sum_of = [](std::size_t terms) {
+    std::string text = "strain";
+    for (std::size_t n = 1; n < terms; ++n) text += "+strain";
+    return text;
+  };
+  // A term and its sum are an instruction each; the place of the last sum is left for the result.
+  const std::size_t most = most_instructions / 2;
+  EXPECT_EQ(at(sum_of(most), 0.25, 0, 0), 0.25 * static_cast<double>(most));
+  EXPECT_EQ(of_spring(sum_of(most + 1)).problem, "it has too many operations");
+}
+
+/// Two numbers as a vector.
+struct Pair {
+  double lane[2];
+
+  Pair() = default;
+  explicit Pair(double both) : lane{both, both} {}
+  Pair(double first, double second) : lane{first, second} {}
+  friend Pair operator+(const Pair& a, const Pair& b) {
+    return {a.lane[0] + b.lane[0], a.lane[1] + b.lane[1]};
+  }
+  friend Pair operator-(const Pair& a, const Pair& b) {
+    return {a.lane[0] - b.lane[0], a.lane[1] - b.lane[1]};
+  }
+  friend Pair operator*(const Pair& a, const Pair& b) {
+    return {a.lane[0] * b.lane[0], a.lane[1] * b.lane[1]};
+  }
+  friend Pair operator/(const Pair& a, const Pair& b) {
+    return {a.lane[0] / b.lane[0], a.lane[1] / b.lane[1]};
+  }
+};
+
+TEST(Expression, LanesHaveTheBitsOfOneEvaluation) {
+  for (const char* text :
+       {"1 - 20 * strain + 400 * strain^2 - strain^3 / 7", "strain > 0.1 ? exp(-strain) : strain",
+        "strain^elongation_ratio", "max(strain, elongation / 1 m) - sqrt(abs(strain))",
+        "-(strain^0.5) / 3", "2", "strain"}) {
+    const std::vector<ExpressionName> names{
+        {"strain", {}, {}}, {"elongation", {1}, {}}, {"elongation_ratio", {}, {}}};
+    const Expression found = compile_expression(text, names);
+    ASSERT_EQ(found.problem, "") << text;
+    const Pair inputs[] = {{0.3, 0.07}, {1e-3, -2e-3}, {1.7, 2.0}};
+    const Pair both = values_of<Pair>(*found.compiled, inputs);
+    for (const std::size_t n : {0U, 1U}) {
+      const double one[] = {inputs[0].lane[n], inputs[1].lane[n], inputs[2].lane[n]};
+      EXPECT_EQ(both.lane[n], (*found.compiled)(one)) << text;
+    }
+  }
 }
 
 /// The same sum in two ways: by the program, and by C++.
