@@ -149,8 +149,13 @@ void Layout::add_axes(Page& page, const picture::Camera& camera) const {
     for (const double side : {-0.5, 0.5})
       page.lines.push_back({tip_x, tip_y, tip_x - head * (along_x - side * along_y),
                             tip_y - head * (along_y + side * along_x), 0.1 * font_});
-    page.texts.push_back({tip_x + 0.65 * font_ * along_x,
-                          tip_y + 0.65 * font_ * along_y + 0.33 * font_, font_, 0.5, name});
+    double at = tip_x + 0.65 * font_ * along_x;
+    const double base = tip_y + 0.65 * font_ * along_y + 0.33 * font_;
+    const auto is_near = [&](const PageText& other) {
+      return std::abs(other.x - at) < 0.8 * font_ && std::abs(other.y - base) < 0.9 * font_;
+    };
+    while (std::any_of(page.texts.begin(), page.texts.end(), is_near)) at += 0.8 * font_;
+    page.texts.push_back({at, base, font_, 0.5, name});
   }
 }
 
