@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <set>
 
 namespace hyperlattice::test {
 namespace render_test {
@@ -45,6 +46,16 @@ class Block {
           now = to(from);
       for (std::size_t axis = 0; axis < 3; ++axis)
         displacement[3 * n + axis] = now[axis] - from[axis];
+    }
+  }
+  /// Takes the cubes away whose middle is not inside.
+  void keep(const std::function<bool(Vec3)>& inside) {
+    for (std::size_t n = 0; n < owners_.size(); ++n) {
+      const auto nx = static_cast<std::size_t>(cubes_.count[0]),
+                 ny = static_cast<std::size_t>(cubes_.count[1]);
+      const Vec3 place{double(n % nx), double(n / nx % ny), double(n / nx / ny)};
+      if (!inside(cubes_.origin + cubes_.edge * (place + Vec3{0.5, 0.5, 0.5})))
+        owners_[n] = BodyCubes::no_particle;
     }
   }
   /// Breaks the spring between two particles.
@@ -137,9 +148,9 @@ class Block {
 
 /// Options without texts and light: colours are exactly those of the particles.
 json bare(json more = json::object()) {
-  json options{{"title", ""},     {"legend", false}, {"scale_bar", false},
-               {"axes", false},   {"light", 0},      {"colour_by", "pressure"},
-               {"range", {0, 1}}, {"width", 500},    {"height", 500}};
+  json options{{"title", ""},      {"legend", false}, {"scale_bar", false},      {"axes", false},
+               {"outline", false}, {"light", 0},      {"colour_by", "pressure"}, {"range", {0, 1}},
+               {"width", 500},     {"height", 500}};
   options.update(more);
   return options;
 }
@@ -340,6 +351,42 @@ TEST(Render, APlaneCutsFlat) {
       draw(cube, bare({{"clip", {2e-3, 2e-3, 2e-3, 1, 1, 0}}, {"view", {1, 1, 0}}})), zero_colour);
   EXPECT_NEAR(static_cast<double>(section.width()) / section.height(), std::numbers::sqrt2, 0.01);
   EXPECT_NEAR(section.area, 1.0 * section.width() * section.height(), 0.01 * section.area);
+}
+
+// The silhouette of a ball of cubes is a stair of few steps. Smoothed, it has another width in
+// nearly each row, and the area of a disc.
+TEST(Render, SmoothingTakesTheStepsOfABall) {
+  double share = 0;
+  for (const int steps : {0, 20}) {
+    Block block({15, 15, 15});
+    block.keep([](Vec3 x) { return norm(x - Vec3{7.5e-3, 7.5e-3, 7.5e-3}) < 7e-3; });
+    const Pixels pixels = draw(block, bare({{"from", "z"}, {"smooth", steps}}));
+    const Extent extent = extent_of(pixels, zero_colour);
+    share = extent.area / (1.0 * extent.width() * extent.height());
+    std::set<int> starts;
+    for (int y = extent.top; y <= extent.bottom; ++y) {
+      int x = 0;
+      while (pixels.at(x, y)[0] > 160) ++x;
+      starts.insert(x);
+    }
+    if (steps == 0)
+      EXPECT_LE(starts.size(), 10U);
+    else
+      EXPECT_GT(starts.size(), 80U);
+  }
+  EXPECT_NEAR(share, std::numbers::pi / 4, 0.01);
+}
+
+TEST(Render, TheOutlineIsDarkAndThin) {
+  Block block({3, 3, 3});
+  block.pressure.assign(block.particles, 0.9);
+  const Pixels pixels =
+      draw(block, bare({{"outline", true}, {"from", "z"}, {"colour_map", "grey"}}));
+  const auto value = [&](int x) { return static_cast<int>(pixels.at(x, 250)[0]); };
+  int first = 0;
+  while (value(first) == 255) ++first;
+  EXPECT_LT(std::min(value(first), value(first + 1)), 200);  // the body itself: 215
+  EXPECT_EQ(value(first + 3), picture::colour_of(picture::ColourMap::grey, 0.9)[0]);
 }
 
 TEST(Render, TextsOfSvgStayTexts) {

@@ -122,6 +122,8 @@ Schema<Options> options_schema() {
       .fallback("0.8")
       .at_least(0)
       .at_most(1)
+      .add<&Options::outline>("outline", "", "a dark line where the body ends")
+      .fallback("true")
       .add<&Options::background>("background", "", "behind the body")
       .choices(background_names)
       .fallback("\"white\"")

@@ -40,7 +40,8 @@ struct Options {
   Fit fit = Fit::frame;
   double scale = 1, opacity = 1, light = 0, damage = 1;
   int smooth = 0;
-  bool cracks = false, springs = false, legend = true, scale_bar = true, axes = true;
+  bool cracks = false, springs = false, outline = true, legend = true, scale_bar = true,
+       axes = true;
   std::optional<std::string> title;
   Background background = Background::white;
   int width = 0, height = 0, samples = 0;

@@ -83,7 +83,7 @@ class Render {
   double memory_bytes() const noexcept {
     constexpr double grid = 4, colours = 3, positions = 24, surface = 0.1 * 12 * 150;
     const double pixels = static_cast<double>(options_.width) * options_.height;
-    return 4 * 2 * pixels +
+    return (16 + 4 * 2) * pixels +
            static_cast<double>(drawn_.size()) * (grid + colours + positions + surface);
   }
 
@@ -195,7 +195,8 @@ class Render {
                     options_.light,
                     5 * snapshot.spacing * camera_->scale,
                     options_.samples,
-                    options_.background == Background::transparent};
+                    options_.background == Background::transparent,
+                    options_.outline};
     const Raster raster = trace(snapshot, scene, look, *camera_, options_.width, options_.height);
     Page page;
     page.raster = &raster;

@@ -50,7 +50,8 @@ class Tracer {
   Tracer(const RayScene& scene, const Look& look, const picture::Camera& camera)
       : scene_(scene), look_(look), camera_(camera), k_(static_cast<float>(camera.k)) {}
 
-  std::uint32_t pixel(int x, int y) const {
+  /// Returns the mean light of a pixel.
+  Light pixel(int x, int y) const {
     const int n = look_.samples, first = std::min(n, 2);
     // Where four samples see the same flat part, the others would see it too.
     Light sum;
@@ -62,11 +63,11 @@ class Tracer {
         if (row + column == 0) seen = corner;
         is_same = is_same && corner == seen;
       }
-    if (n <= 2 || is_same) return pixel_of(mean(sum, first * first), look_.is_transparent);
+    if (n <= 2 || is_same) return mean(sum, first * first);
     sum = {};
     for (int row = 0; row < n; ++row)
       for (int column = 0; column < n; ++column) sum.add(1, sample(x, y, column, row, n, corner));
-    return pixel_of(mean(sum, n * n), look_.is_transparent);
+    return mean(sum, n * n);
   }
 
  private:
@@ -163,20 +164,55 @@ class Tracer {
   float k_;
 };
 
+/// Returns whether a pixel is within `radius` pixels of one of which the body covers less than
+/// `least`.
+bool is_at_background(const std::vector<Light>& lights, int width, int height, int x, int y,
+                      int radius, float least) {
+  for (int dy = -radius; dy <= radius; ++dy)
+    for (int dx = -radius; dx <= radius; ++dx) {
+      const int column = x + dx, row = y + dy;
+      if (dx * dx + dy * dy > radius * radius || column < 0 || row < 0 || column >= width ||
+          row >= height)
+        continue;
+      if (lights[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+                 static_cast<std::size_t>(column)]
+              .cover < least)
+        return true;
+    }
+  return false;
+}
+
 }  // namespace
 
 Raster trace(const Snapshot& snapshot, const RayScene& scene, const Look& look,
              const picture::Camera& camera, int width, int height) {
   constexpr int band = 8;  // rows of a task
-  Raster raster{width, height, {}};
-  raster.pixels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  constexpr float outline_light = 0.2F;
+  const auto index = [width](int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+           static_cast<std::size_t>(x);
+  };
+  const auto for_pixels = [&](const auto& visit) {
+    snapshot.for_each(static_cast<std::uint64_t>((height + band - 1) / band), [&](std::uint64_t n) {
+      const int top = static_cast<int>(n) * band;
+      for (int y = top; y < std::min(height, top + band); ++y)
+        for (int x = 0; x < width; ++x) visit(x, y);
+    });
+  };
+  std::vector<Light> lights(index(0, height));
   const Tracer tracer(scene, look, camera);
-  snapshot.for_each(static_cast<std::uint64_t>((height + band - 1) / band), [&](std::uint64_t n) {
-    const int top = static_cast<int>(n) * band;
-    for (int y = top; y < std::min(height, top + band); ++y)
-      for (int x = 0; x < width; ++x)
-        raster.pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                      static_cast<std::size_t>(x)] = tracer.pixel(x, y);
+  for_pixels([&](int x, int y) { lights[index(x, y)] = tracer.pixel(x, y); });
+  Raster raster{width, height, {}};
+  raster.pixels.resize(lights.size());
+  const int radius = std::max(1, width / 600);
+  const float least = 0.5F * static_cast<float>(look.opacity);
+  for_pixels([&](int x, int y) {
+    Light light = lights[index(x, y)];
+    if (look.has_outline && light.cover > 0 &&
+        is_at_background(lights, width, height, x, y, radius, least))
+      light = {outline_light * light.red, outline_light * light.green, outline_light * light.blue,
+               light.cover};
+    raster.pixels[index(x, y)] = pixel_of(light, look.is_transparent);
   });
   return raster;
 }

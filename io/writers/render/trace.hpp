@@ -22,6 +22,7 @@ struct Look {
   double shade_reach = 0;       ///< up to which distance surfaces shade each other, pixels
   int samples = 4;              ///< along each side of a pixel
   bool is_transparent = false;  ///< the background; else white
+  bool has_outline = false;     ///< a dark line where the body ends
 };
 
 /// Draws what the camera sees. The same bits for any number of threads.
