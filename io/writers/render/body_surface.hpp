@@ -7,6 +7,8 @@
 #include "mesh.hpp"
 #include "rest_corners.hpp"
 
+#include <hyperlattice/fields.hpp>
+
 namespace hyperlattice::render {
 
 /// What a picture draws of a body.

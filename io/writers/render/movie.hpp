@@ -1,6 +1,7 @@
 // Films of the frames, by ffmpeg or ImageMagick if they are installed.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>

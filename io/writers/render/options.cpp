@@ -110,7 +110,8 @@ Schema<Options> options_schema() {
       .above(0)
       .at_most(1)
       .fallback("1")
-      .add<&Options::title>("title", "", "at the top; left out: the scene's title; \"\": none")
+      .add<&Options::title>("title", "",
+                            "at the top, with the time; left out: the scene's title; \"\": neither")
       .add<&Options::legend>("legend", "", "what the colours mean, to the right of the body")
       .fallback("true")
       .add<&Options::scale_bar>("scale_bar", "", "a bar of a round length, below the body")
