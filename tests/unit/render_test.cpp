@@ -386,7 +386,7 @@ TEST(Render, TheOutlineIsDarkAndThin) {
   int first = 0;
   while (value(first) == 255) ++first;
   EXPECT_LT(std::min(value(first), value(first + 1)), 200);  // the body itself: 215
-  EXPECT_EQ(value(first + 3), picture::colour_of(picture::ColourMap::grey, 0.9)[0]);
+  EXPECT_EQ(value(first + 4), picture::colour_of(picture::ColourMap::grey, 0.9)[0]);
 }
 
 TEST(Render, TextsOfSvgStayTexts) {
@@ -402,6 +402,25 @@ TEST(Render, TextsOfSvgStayTexts) {
   EXPECT_EQ(pdf.substr(0, 5), "%PDF-");
   EXPECT_NE(pdf.find("/FontFile"), std::string::npos);  // the font is in the file
   EXPECT_EQ(pdf, draw_file(block, options, "pdf"));
+}
+
+TEST(Render, DrawsNothingWhereNothingIsLeft) {
+  Block block({2, 2, 2});
+  const Pixels pixels =
+      draw(block, {{"clip", {0, 0, -1, 0, 0, 1}}, {"colour_by", "pressure"}, {"legend", false}});
+  EXPECT_TRUE(is_white(pixels.at(pixels.width / 2, pixels.height / 2)));
+}
+
+// A scale whose numbers hardly differ, and one that has no end.
+TEST(Render, TakesAnyNumbers) {
+  for (const double step : {1e-300, 1e-16, 16.0, 1e300}) {
+    Block block({2, 2, 2});
+    for (Particle n = 0; n < block.particles; ++n)
+      block.pressure[n] = step < 20 ? 1e17 + step * double(n) : step * double(n);
+    json options = bare({{"legend", true}});
+    options.erase("range");
+    EXPECT_GT(draw(block, options).width, 0);
+  }
 }
 
 TEST(Render, RefusesWhatDoesNotFit) {

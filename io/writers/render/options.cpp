@@ -42,7 +42,7 @@ Schema<Options> options_schema() {
                           "particles to take away, so that the inside is seen; left out: none")
       .add<&Options::clip>("clip", "m",
                            "planes that cut the drawn body flat, six numbers each: x y z of a "
-                           "point, m, and a normal; what is on its side is not drawn")
+                           "point, m, and a normal; the side to which it points is not drawn")
       .fallback("[]")
       .example("[0, 0, 0, 0, -1, 0]")
       .add<&Options::colour_by>("colour_by", "",

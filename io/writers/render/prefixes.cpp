@@ -35,14 +35,16 @@ double round_below(double most) {
 
 std::vector<double> ticks(double low, double high, int most) {
   if (!(high > low)) return {low};
-  double step = round_below((high - low) / most);
-  const auto count = [&] {
-    return std::floor(high / step + 1e-6) - std::ceil(low / step - 1e-6) + 1;
-  };
-  while (count() > most) step = round_below(2.5 * step);  // the next of 1, 2, 5, 10
+  constexpr int tries = 5;  // two are enough but for round-off
+  double step = round_below((high - low) / most), first = 0, count = 0;
+  for (int n = 0; n < tries; ++n) {
+    first = std::ceil(low / step - 1e-6);
+    count = std::floor(high / step + 1e-6) - first + 1;
+    if (count <= most) break;
+    step = round_below(2.5 * step);  // the next of 1, 2, 5, 10
+  }
   std::vector<double> values;
-  for (double n = std::ceil(low / step - 1e-6); n * step <= high + 1e-6 * step; ++n)
-    values.push_back(n * step + 0.0);  // not -0
+  for (int n = 0; n < most && n < count; ++n) values.push_back((first + n) * step + 0.0);  // not -0
   return values;
 }
 

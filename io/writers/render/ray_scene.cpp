@@ -57,7 +57,7 @@ RayScene::RayScene(const Mesh& mesh, std::span<const Line> lines, double radius,
   check();
   RTCBounds bounds;
   rtcGetSceneBounds(scene_.get(), &bounds);
-  nearest_ = bounds.lower_z;
+  nearest_ = std::isfinite(bounds.lower_z) ? bounds.lower_z : 0;  // infinite in an empty scene
 }
 
 void RayScene::add_mesh(const Mesh& mesh) {

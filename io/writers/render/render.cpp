@@ -148,7 +148,8 @@ class Render {
   picture::Camera camera_for(const Snapshot& snapshot, const Mesh& mesh,
                              const picture::Frame& frame) const {
     std::vector<double> points;
-    const bool rest = options_.fit == Fit::rest;
+    // A plane may have taken everything away.
+    const bool rest = options_.fit == Fit::rest || mesh.triangles.empty();
     if (rest)
       for (const Particle particle : drawn_) {
         const Vec3 point = position_of(snapshot, particle);

@@ -164,30 +164,30 @@ class Tracer {
   float k_;
 };
 
-/// Returns whether a pixel is within `radius` pixels of one of which the body covers less than
-/// `least`.
-bool is_at_background(const std::vector<Light>& lights, int width, int height, int x, int y,
-                      int radius, float least) {
-  for (int dy = -radius; dy <= radius; ++dy)
-    for (int dx = -radius; dx <= radius; ++dx) {
-      const int column = x + dx, row = y + dy;
-      if (dx * dx + dy * dy > radius * radius || column < 0 || row < 0 || column >= width ||
-          row >= height)
-        continue;
-      if (lights[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
-                 static_cast<std::size_t>(column)]
-              .cover < least)
-        return true;
+/// Returns how dark the outline is at a pixel, 0 to 1: three times the share of the background in
+/// the disc of this radius around it. `full`: cover of a pixel inside.
+float outline_at(const std::vector<Light>& lights, int width, int height, int x, int y, int radius,
+                 float full) {
+  float covered = 0;
+  int count = 0;
+  for (int row = std::max(0, y - radius); row <= std::min(height - 1, y + radius); ++row)
+    for (int column = std::max(0, x - radius); column <= std::min(width - 1, x + radius);
+         ++column) {
+      if ((column - x) * (column - x) + (row - y) * (row - y) > radius * radius) continue;
+      const Light& light = lights[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+                                  static_cast<std::size_t>(column)];
+      covered += std::min(1.0F, light.cover / full);
+      ++count;
     }
-  return false;
+  return std::clamp(3 * (1 - covered / static_cast<float>(count)), 0.0F, 1.0F);
 }
 
 }  // namespace
 
 Raster trace(const Snapshot& snapshot, const RayScene& scene, const Look& look,
              const picture::Camera& camera, int width, int height) {
-  constexpr int band = 8;  // rows of a task
-  constexpr float outline_light = 0.2F;
+  constexpr int band = 8;           // rows of a task
+  constexpr float darkest = 0.85F;  // how much of the light the outline takes
   const auto index = [width](int x, int y) {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
            static_cast<std::size_t>(x);
@@ -204,14 +204,14 @@ Raster trace(const Snapshot& snapshot, const RayScene& scene, const Look& look,
   for_pixels([&](int x, int y) { lights[index(x, y)] = tracer.pixel(x, y); });
   Raster raster{width, height, {}};
   raster.pixels.resize(lights.size());
-  const int radius = std::max(1, width / 600);
-  const float least = 0.5F * static_cast<float>(look.opacity);
+  const int radius = std::max(2, width / 500);
+  const auto full = static_cast<float>(look.opacity);
   for_pixels([&](int x, int y) {
     Light light = lights[index(x, y)];
-    if (look.has_outline && light.cover > 0 &&
-        is_at_background(lights, width, height, x, y, radius, least))
-      light = {outline_light * light.red, outline_light * light.green, outline_light * light.blue,
-               light.cover};
+    if (look.has_outline && light.cover > 0) {
+      const float left = 1 - darkest * outline_at(lights, width, height, x, y, radius, full);
+      light = {left * light.red, left * light.green, left * light.blue, light.cover};
+    }
     raster.pixels[index(x, y)] = pixel_of(light, look.is_transparent);
   });
   return raster;
