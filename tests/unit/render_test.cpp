@@ -1,7 +1,5 @@
 // Pictures of writers.render against closed forms: projected areas, colours, gaps, cracks, cuts.
-#include <support/output.hpp>
-#include <support/png.hpp>
-#include <support/program.hpp>
+#include <support/render_block.hpp>
 
 #include <picture/palette.hpp>
 
@@ -19,157 +17,6 @@ namespace render_test {
 
 using nlohmann::json;
 using picture::Colour;
-
-/// A block of particles, 1 mm apart: cubes of 1 mm, or the corners of cells of 1 mm.
-class Block {
- public:
-  explicit Block(std::array<std::int32_t, 3> count, bool corners_of_cells = false) {
-    for (std::int32_t k = 0; k < count[2]; ++k)
-      for (std::int32_t j = 0; j < count[1]; ++j)
-        for (std::int32_t i = 0; i < count[0]; ++i)
-          positions_.insert(positions_.end(),
-                            {edge * (i + 0.5), edge * (j + 0.5), edge * (k + 0.5)});
-    particles = positions_.size() / 3;
-    for (Particle n = 0; n < particles; ++n) all_.push_back(n);
-    displacement.assign(positions_.size(), 0);
-    pressure.assign(particles, 0);
-    open.assign(particles, 0);
-    closed.assign(particles, 0);
-    fragment.assign(particles, 0);
-    take_cubes(count, corners_of_cells);
-  }
-
-  /// Moves each particle from its place at rest, m, to another one.
-  void move(const std::function<Vec3(Vec3)>& to) {
-    for (Particle n = 0; n < particles; ++n) {
-      const Vec3 from{positions_[3 * n], positions_[3 * n + 1], positions_[3 * n + 2]},
-          now = to(from);
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        displacement[3 * n + axis] = now[axis] - from[axis];
-    }
-  }
-  /// Takes the cubes away whose middle is not inside.
-  void keep(const std::function<bool(Vec3)>& inside) {
-    for (std::size_t n = 0; n < owners_.size(); ++n) {
-      const auto nx = static_cast<std::size_t>(cubes_.count[0]),
-                 ny = static_cast<std::size_t>(cubes_.count[1]);
-      const Vec3 place{double(n % nx), double(n / nx % ny), double(n / nx / ny)};
-      if (!inside(cubes_.origin + cubes_.edge * (place + Vec3{0.5, 0.5, 0.5})))
-        owners_[n] = BodyCubes::no_particle;
-    }
-  }
-  /// Breaks the spring between two particles.
-  void break_spring(Particle a, Particle b) {
-    CrackFace face;
-    face.a = a;
-    face.b = b;
-    face.area = edge * edge;
-    face.damage = 1;
-    faces_.push_back(face);
-  }
-
-  OutputContext context(std::string_view directory) {
-    OutputContext context;
-    context.directory = directory;
-    context.title = "A block & its title";
-    context.self = this;
-    context.region_particles = [](void* self, RegionId) noexcept -> std::span<const Particle> {
-      return static_cast<Block*>(self)->all_;
-    };
-    context.receive_warning = [](void* self, std::string_view sentence) noexcept {
-      static_cast<Block*>(self)->warnings.emplace_back(sentence);
-    };
-    return context;
-  }
-  Snapshot snapshot() {
-    Snapshot snapshot;
-    snapshot.time = 2e-6;
-    snapshot.particles = particles;
-    snapshot.spacing = edge;
-    snapshot.positions = positions_;
-    snapshot.self = this;
-    snapshot.get_field = [](void* self, std::string_view name, Field& field) noexcept {
-      auto& block = *static_cast<Block*>(self);
-      const std::pair<std::string_view, Field> fields[] = {
-          {"displacement", {3, block.displacement}},
-          {"pressure", {1, block.pressure}},
-          {"broken_open", {1, block.open}},
-          {"broken_closed", {1, block.closed}}};
-      for (const auto& [known, values] : fields)
-        if (known == name) {
-          field = values;
-          return true;
-        }
-      return false;
-    };
-    snapshot.get_fragments = [](void* self, double, Field& numbers) noexcept {
-      numbers = {1, static_cast<Block*>(self)->fragment};
-      return true;
-    };
-    snapshot.get_crack_faces = [](void* self, double) noexcept {
-      return std::span<const CrackFace>(static_cast<Block*>(self)->faces_);
-    };
-    snapshot.get_cubes = [](void* self) noexcept {
-      auto& block = *static_cast<Block*>(self);
-      block.cubes_.particle = block.owners_;
-      return block.cubes_;
-    };
-    return snapshot;
-  }
-
-  static constexpr double edge = 1e-3;
-  std::uint64_t particles = 0;
-  std::vector<double> displacement, pressure, open, closed, fragment;
-  std::vector<std::string> warnings;
-
- private:
-  void take_cubes(std::array<std::int32_t, 3> count, bool corners_of_cells) {
-    const std::int32_t parts = corners_of_cells ? 2 : 1, less = corners_of_cells ? 1 : 0;
-    cubes_.edge = edge / parts;
-    const double low = corners_of_cells ? edge / 2 : 0;
-    cubes_.origin = {low, low, low};
-    for (int axis = 0; axis < 3; ++axis)
-      cubes_.count[axis] = parts * (count[static_cast<std::size_t>(axis)] - less);
-    for (std::int32_t k = 0; k < cubes_.count[2]; ++k)
-      for (std::int32_t j = 0; j < cubes_.count[1]; ++j)
-        for (std::int32_t i = 0; i < cubes_.count[0]; ++i) {
-          const auto at = [&](std::int32_t n) { return (n + less) / parts; };
-          owners_.push_back(
-              static_cast<std::uint32_t>((at(k) * count[1] + at(j)) * count[0] + at(i)));
-        }
-  }
-
-  std::vector<double> positions_;
-  std::vector<Particle> all_;
-  std::vector<CrackFace> faces_;
-  std::vector<std::uint32_t> owners_;
-  BodyCubes cubes_;
-};
-
-/// Options without texts and light: colours are exactly those of the particles.
-json bare(json more = json::object()) {
-  json options{{"title", ""},      {"legend", false}, {"scale_bar", false},      {"axes", false},
-               {"outline", false}, {"light", 0},      {"colour_by", "pressure"}, {"range", {0, 1}},
-               {"width", 500},     {"height", 500}};
-  options.update(more);
-  return options;
-}
-
-std::string draw_file(Block& block, const json& options, const std::string& extension = "png") {
-  const Folder folder("render");
-  Plugin writer("writers.render", options);
-  writer.begin(block.context(folder.path()));
-  writer.frame(block.snapshot());
-  writer.end();
-  return contents(folder.file("render_000000." + extension));
-}
-
-Pixels draw(Block& block, const json& options) {
-  const Folder folder("render_png");
-  const std::string file = folder.file("picture.png");
-  std::ofstream(file, std::ios::binary) << draw_file(block, options);
-  return read_png(file);
-}
 
 bool is_white(const png_byte* pixel) {
   return pixel[0] == 255 && pixel[1] == 255 && pixel[2] == 255;
@@ -423,6 +270,57 @@ TEST(Render, TakesAnyNumbers) {
   }
 }
 
+// With "fit": "rest" a body may move where the legend is.
+TEST(Render, ABodyThatMovesAwayDoesNotCoverTheLegend) {
+  const auto moved = [](Vec3 by) {
+    Block block({3, 3, 3});
+    block.move([by](Vec3 x) { return x + by; });
+    return draw(block,
+                bare({{"legend", true}, {"title", "A title"}, {"fit", "rest"}, {"from", "z"}}));
+  };
+  const Pixels inside = moved({1.2e-3, 1.2e-3, 0}), outside = moved({1, 0, 0});
+  constexpr int legend = 446, body = 420, title = 21, head = 30;
+  int seen = 0;
+  for (int y = 0; y < inside.height; ++y)
+    for (int x = 0; x < inside.width; ++x) {
+      const bool is_same = std::memcmp(inside.at(x, y), outside.at(x, y), 3) == 0;
+      if (x >= legend || y < title) {
+        EXPECT_TRUE(is_same) << x << " " << y;
+      }
+      if (x < body && y > head && !is_same) ++seen;
+    }
+  EXPECT_GT(seen, 10000);
+}
+
+TEST(Render, ALongTitleIsCut) {
+  Block block({2, 2, 2});
+  for (const std::string word : {"a word ", "\u00e4\u2211", "\u0001\n<&>"}) {
+    std::string title;
+    for (int n = 0; n < 100; ++n) title += word;
+    const std::string svg = draw_file(block, bare({{"title", title}, {"format", "svg"}}), "svg");
+    EXPECT_NE(svg.find("\u2026</text>"), std::string::npos) << svg.substr(svg.size() - 500);
+    EXPECT_NE(svg.find(">t = 2 \u00b5s</text>"), std::string::npos);
+    EXPECT_EQ(svg.find('\1'), std::string::npos);
+  }
+}
+
+// A body may collapse or be lost; the run's guard, not the picture, stops it.
+TEST(Render, DrawsBodiesThatHaveNoSizeOrNoPlace) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const Vec3 by : {Vec3{0, 0, 0}, Vec3{nan, nan, nan}, Vec3{1e200, 0, 0}}) {
+    Block block({3, 3, 3});
+    block.move([by](Vec3) { return by; });
+    for (const char* camera : {"orthographic", "perspective"})
+      EXPECT_EQ(draw(block, bare({{"camera", camera}})).width, 500);
+  }
+  Block block({3, 3, 3});
+  block.displacement[0] = nan;
+  block.pressure[26] = nan;
+  EXPECT_EQ(draw(block, bare({{"smooth", 3}})).width, 500);
+  const std::string svg = draw_file(block, bare({{"legend", true}, {"format", "svg"}}), "svg");
+  EXPECT_NE(svg.find(">no value</text>"), std::string::npos);
+}
+
 TEST(Render, RefusesWhatDoesNotFit) {
   const auto faults = [](const json& options) {
     return Plugin("writers.render", options).faults();
@@ -441,99 +339,6 @@ TEST(Render, RefusesWhatDoesNotFit) {
     ASSERT_EQ(found.size(), 1U) << options;
     EXPECT_EQ(found[0].rfind(fault, 0), 0U) << found[0];
   }
-}
-
-Launch with(const std::string& setting) {
-  Launch launch;
-  launch.environment = {setting};
-  return launch;
-}
-
-/// A scene of a breaking sphere with this writer.
-json sphere_with(json writer) {
-  json scene = small_sphere();
-  scene["pipeline"][1]["failure"] = {{"type", "failures.elongation"}, {"limit", "1e-3 mm"}};
-  writer.update({{"type", "writers.render"}, {"width", 200}, {"height", 150}});
-  scene["pipeline"].push_back(writer);
-  return scene;
-}
-
-TEST(RenderRuns, SameBitsForAnyThreadsAndNoDisplay) {
-  const Folder folder("render_runs");
-  const std::string scene = write_scene(
-      folder,
-      sphere_with(
-          {{"every", "5 us"}, {"clip", {0, 0, 0, 1, -1, 0}}, {"smooth", 5}, {"cracks", true}}));
-  for (const char* threads : {"1", "2"}) {
-    const Result result = run_program(
-        {"run", scene, "--out", folder.file(threads), "--threads", threads}, with("DISPLAY="));
-    ASSERT_EQ(result.exit_code, 0) << result.err;
-  }
-  for (const char* name : {"render_000000.png", "render_000001.png", "render_000002.png"}) {
-    const std::string one = contents(folder.file("1/" + std::string(name)));
-    EXPECT_GT(one.size(), 1000U);
-    EXPECT_TRUE(one == contents(folder.file("2/" + std::string(name)))) << name;
-  }
-  EXPECT_NE(contents(folder.file("1/render_000000.png")),
-            contents(folder.file("1/render_000002.png")));
-}
-
-TEST(RenderRuns, FaultsPointAtTheOption) {
-  const Folder folder("render_faults");
-  const std::string scene = write_scene(
-      folder, sphere_with({{"clip", {1, 2}}, {"opacity", 0}, {"colour_by", "presure"}}));
-  const Result result = run_program({"plan", scene});
-  EXPECT_EQ(result.exit_code, 2);
-  for (const char* pointer : {"/pipeline/4/opacity", "/pipeline/4/colour_by"})
-    EXPECT_NE(result.err.find(pointer), std::string::npos) << result.err;
-  EXPECT_NE(result.err.find("pressure"), std::string::npos);  // the nearest valid name
-}
-
-TEST(RenderRuns, AFullDiskIsExitCode4) {
-  const Folder folder("render_disk");
-  const std::string scene = write_scene(folder, sphere_with({{"every", 0}, {"width", 2000}}));
-  Launch limited;
-  limited.file_limit = 20000;
-  const Result result = run_program({"run", scene, "--out", folder.file("out")}, limited);
-  EXPECT_EQ(result.exit_code, 4) << result.err;
-}
-
-/// Puts a program named ffmpeg into a folder. It writes its arguments to the last of them.
-void fake_ffmpeg(const Folder& folder, const std::string& script) {
-  std::ofstream(folder.file("ffmpeg")) << "#!/bin/sh\n" << script;
-  std::filesystem::permissions(folder.file("ffmpeg"), std::filesystem::perms::owner_all);
-}
-
-TEST(RenderRuns, AFilmIsMadeOfAllFrames) {
-  const Folder folder("render_film");
-  fake_ffmpeg(folder, "for last; do :; done\necho \"$@\" > \"$last\"\n");
-  const std::string scene = write_scene(folder, sphere_with({{"every", "5 us"}, {"movie", "mp4"}}));
-  const Result result =
-      run_program({"run", scene, "--out", folder.file("out")}, with("PATH=" + folder.path()));
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-  const std::string told = contents(folder.file("out/render.mp4"));
-  EXPECT_NE(told.find("render_%06d.png"), std::string::npos) << told;
-  EXPECT_TRUE(std::filesystem::exists(folder.file("out/render_000002.png")));
-  EXPECT_FALSE(std::filesystem::exists(folder.file("out/render.mp4.part")));
-}
-
-TEST(RenderRuns, AFilmThatFailsLeavesTheFrames) {
-  const Folder folder("render_film_fails");
-  fake_ffmpeg(folder, "echo no such encoder >&2\nexit 1\n");
-  const std::string scene = write_scene(folder, sphere_with({{"every", "5 us"}, {"movie", "mp4"}}));
-  const Result result =
-      run_program({"run", scene, "--out", folder.file("out")}, with("PATH=" + folder.path()));
-  EXPECT_EQ(result.exit_code, 4);
-  EXPECT_NE(result.err.find("no such encoder"), std::string::npos) << result.err;
-  EXPECT_TRUE(std::filesystem::exists(folder.file("out/render_000002.png")));
-}
-
-TEST(RenderRuns, ThePlanTellsThatNoFilmIsMade) {
-  const Folder folder("render_no_film");
-  const std::string scene = write_scene(folder, sphere_with({{"movie", "mp4"}}));
-  const Result result = run_program({"plan", scene, "--json"}, with("PATH=/nowhere"));
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_NE(json::parse(result.out)["warnings"].dump().find("ffmpeg"), std::string::npos);
 }
 
 }  // namespace render_test

@@ -53,7 +53,6 @@ class BodyGrid {
     return origin_ + edge_ * Vec3{double(corner.i), double(corner.j), double(corner.k)};
   }
   Vec3 centre(Place cube) const { return corner(cube) + Vec3{edge_ / 2, edge_ / 2, edge_ / 2}; }
-  double bytes() const { return 4.0 * static_cast<double>(particle_.size()); }
 
  private:
   std::uint64_t index(Place place, std::int32_t more) const {

@@ -14,7 +14,6 @@ class Corners {
   /// Returns the index of corner `n`, 0 to 7, of a cube: bit 0 along x, bit 1 along y, bit 2 along
   /// z.
   std::uint32_t index(Place cube, int n);
-  std::size_t size() const { return corners_.size(); }
   /// Returns the places of all corners, m, by their indices.
   std::vector<Vec3> places() const;
 

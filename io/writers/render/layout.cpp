@@ -15,11 +15,35 @@ namespace {
 
 // Lengths in sizes of the font.
 constexpr double bar_width = 1.3, gap = 0.5, title_size = 1.2, line = 1.5, axes_size = 2.2;
+constexpr double smallest_title = 0.6;  ///< of its size
 constexpr int most_ticks = 7;
 
 /// The numbers at a scale; a range that is a point has one.
 std::vector<double> marks(const Scale& scale) {
   return ticks(scale.factor * scale.range.low, scale.factor * scale.range.high, most_ticks);
+}
+
+/// Drops the last character of a UTF-8 text, whole or not, unless the character has one byte.
+void drop_last_of_many_bytes(std::string& text) {
+  const auto has = [&](unsigned bits) {
+    return !text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0U) == bits;
+  };
+  while (has(0x80)) text.pop_back();
+  if (has(0xC0)) text.pop_back();
+}
+
+/// Returns a text without the last characters that have no room, pixels.
+std::string shortened(std::string text, double size, bool is_bold, double room) {
+  const std::string end = "\u2026";
+  double width = text_width(text, size, is_bold);
+  if (width <= room) return text;
+  while (!text.empty() && width > room) {
+    const auto likely = static_cast<std::size_t>(room / width * static_cast<double>(text.size()));
+    text.resize(std::min(likely, text.size() - 1));
+    drop_last_of_many_bytes(text);
+    width = text_width(text + end, size, is_bold);
+  }
+  return text + end;
 }
 
 }  // namespace
@@ -42,6 +66,13 @@ picture::Frame Layout::frame() const {
           std::max(1.0, height_ - top_ - foot_)};
 }
 
+picture::Frame Layout::body_area() const {
+  constexpr double margin = 0.5, below = 0.25;  // sizes of the font
+  const picture::Frame inner = frame();
+  return {inner.left - margin * font_, inner.top - margin * font_, inner.width + 2 * margin * font_,
+          inner.height + (margin + below) * font_};
+}
+
 void Layout::add_to(Page& page, const picture::Camera& camera) const {
   page.title = notes_.title;
   add_heading(page);
@@ -52,15 +83,15 @@ void Layout::add_to(Page& page, const picture::Camera& camera) const {
     page.texts.push_back({width_ - right_, height_ - font_, font_, 1, notes_.remark});
 }
 
-/// The title is made smaller if it has no room beside the time.
+/// A title without room beside the time gets a smaller font, and is then cut.
 void Layout::add_heading(Page& page) const {
   const double base = (0.5 + title_size) * font_;
   const double time = notes_.time.empty() ? 0 : text_width(notes_.time, font_) + 2 * font_;
   if (!notes_.title.empty()) {
     const double room = std::max(font_, width_ - 2 * font_ - time),
-                 natural = text_width(notes_.title, title_size * font_, true);
-    page.texts.push_back(
-        {font_, base, title_size * font_ * std::min(1.0, room / natural), 0, notes_.title, true});
+                 natural = text_width(notes_.title, title_size * font_, true),
+                 size = title_size * font_ * std::clamp(room / natural, smallest_title, 1.0);
+    page.texts.push_back({font_, base, size, 0, shortened(notes_.title, size, true, room), true});
   }
   if (!notes_.time.empty()) page.texts.push_back({width_ - font_, base, font_, 1, notes_.time});
 }

@@ -39,6 +39,8 @@ class Layout {
 
   /// Returns the part of the page that the body fills.
   picture::Frame frame() const;
+  /// Returns the part of the page that the body may cover without touching the notes.
+  picture::Frame body_area() const;
   /// Adds the notes to a page, which shows the body by this camera.
   void add_to(Page& page, const picture::Camera& camera) const;
 

@@ -26,14 +26,16 @@ std::optional<std::string> find_program(std::string_view name) {
     const std::size_t end = std::min(folders.find(':'), folders.size());
     const std::string file = std::string(folders.substr(0, end)) + "/" + std::string(name);
     if (end > 0 && ::access(file.c_str(), X_OK) == 0 && !std::filesystem::is_directory(file))
-      return file;
+      return std::filesystem::absolute(file).string();
     folders.remove_prefix(std::min(end + 1, folders.size()));
   }
   return std::nullopt;
 }
 
-/// Runs a program without a shell, with its messages in a file. Returns its exit status.
-int run(const std::vector<std::string>& arguments, const std::string& messages) {
+/// Runs a program in a folder, without a shell, with its messages in a file. Returns its exit
+/// status, or -1 if a signal ended it.
+int run(const std::vector<std::string>& arguments, const std::string& folder,
+        const std::string& messages) {
   std::vector<char*> list;
   for (const std::string& argument : arguments) list.push_back(const_cast<char*>(argument.c_str()));
   list.push_back(nullptr);
@@ -43,6 +45,8 @@ int run(const std::vector<std::string>& arguments, const std::string& messages) 
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, messages.c_str(),
                                    O_WRONLY | O_CREAT | O_TRUNC, 0600);
   posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+  // The programs give a meaning to '%', ':' and a first '-', which the folder's path may have.
+  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
   pid_t process = 0;
   const int error = ::posix_spawn(&process, list[0], &actions, nullptr, list.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
@@ -57,6 +61,7 @@ int run(const std::vector<std::string>& arguments, const std::string& messages) 
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
+/// Returns the last line in the first 4096 bytes of a file.
 std::string last_line(const std::string& file) {
   std::string text(4096, '\0');
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
@@ -69,9 +74,21 @@ std::string last_line(const std::string& file) {
 }
 
 std::vector<std::string> ffmpeg_arguments(const MovieMaker& maker, MovieKind kind,
-                                          const std::string& input, double rate) {
-  std::vector<std::string> list{maker.program, "-nostdin",         "-y", "-loglevel", "error",
-                                "-framerate",  short_number(rate), "-i", input};
+                                          const MovieFrames& frames) {
+  // "-frames:v": pictures of later numbers may be those of an earlier run that was interrupted.
+  std::vector<std::string> list{maker.program,
+                                "-nostdin",
+                                "-y",
+                                "-loglevel",
+                                "error",
+                                "-framerate",
+                                short_number(frames.rate),
+                                "-start_number",
+                                "0",
+                                "-i",
+                                "./" + frames.pattern,
+                                "-frames:v",
+                                std::to_string(frames.names.size())};
   const auto add = [&](std::initializer_list<const char*> more) {
     list.insert(list.end(), more.begin(), more.end());
   };
@@ -84,11 +101,11 @@ std::vector<std::string> ffmpeg_arguments(const MovieMaker& maker, MovieKind kin
   return list;
 }
 
-std::vector<std::string> magick_arguments(const MovieMaker& maker, const std::string& folder,
-                                          const std::vector<std::string>& names, double rate) {
+std::vector<std::string> magick_arguments(const MovieMaker& maker, const MovieFrames& frames) {
   // Hundredths of a second.
-  std::vector<std::string> list{maker.program, "-delay", short_number(100 / rate), "-loop", "0"};
-  for (const std::string& name : names) list.push_back(folder + "/" + name);
+  std::vector<std::string> list{maker.program, "-delay", short_number(100 / frames.rate), "-loop",
+                                "0"};
+  for (const std::string& name : frames.names) list.push_back("./" + name);
   return list;
 }
 
@@ -102,25 +119,28 @@ std::optional<MovieMaker> find_movie_maker(MovieKind kind) {
   return std::nullopt;
 }
 
-void make_movie(const MovieMaker& maker, MovieKind kind, const std::string& folder,
-                const std::string& pattern, const std::vector<std::string>& names, double rate,
+void make_movie(const MovieMaker& maker, MovieKind kind, const MovieFrames& frames,
                 const std::string& file) {
-  const std::string part = file + ".part", messages = file + ".messages.part";
-  auto arguments = maker.is_ffmpeg ? ffmpeg_arguments(maker, kind, folder + "/" + pattern, rate)
-                                   : magick_arguments(maker, folder, names, rate);
+  const std::string part = file + ".part", messages = file + ".messages.part",
+                    output = "./" + std::filesystem::path(part).filename().string();
+  auto arguments =
+      maker.is_ffmpeg ? ffmpeg_arguments(maker, kind, frames) : magick_arguments(maker, frames);
   const std::string_view name = movie_names[static_cast<std::size_t>(kind)];
-  arguments.push_back(maker.is_ffmpeg ? part : std::string(name) + ":" + part);
-  const int status = run(arguments, messages);
+  arguments.push_back(maker.is_ffmpeg ? output : std::string(name) + ":" + output);
+  const int status = run(arguments, frames.folder, messages);
   const std::string answer = last_line(messages);
   std::remove(messages.c_str());
-  if (status != 0) {
+  if (status != 0 || ::access(part.c_str(), F_OK) != 0) {
     std::remove(part.c_str());
     throw std::runtime_error(maker.program + " makes no film; the frames are there" +
                              (answer.empty() ? "" : ": " + answer));
   }
-  if (std::rename(part.c_str(), file.c_str()) != 0)
+  if (std::rename(part.c_str(), file.c_str()) != 0) {
+    const int error = errno;
+    std::remove(part.c_str());
     throw std::runtime_error("cannot rename " + part + ": " +
-                             std::generic_category().message(errno));
+                             std::generic_category().message(error));
+  }
 }
 
 }  // namespace hyperlattice::render

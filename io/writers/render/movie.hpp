@@ -22,11 +22,17 @@ struct MovieMaker {
 /// convert); nothing if there is none.
 std::optional<MovieMaker> find_movie_maker(MovieKind kind);
 
-/// Makes a film of pictures in a folder, `rate` a second, under a temporary name, and renames it to
-/// `file`. `pattern`: of the names of the pictures for ffmpeg, "frame_%06d.png"; `names`: all of
-/// them, in order. Throws std::runtime_error with the program's answer if it fails.
-void make_movie(const MovieMaker& maker, MovieKind kind, const std::string& folder,
-                const std::string& pattern, const std::vector<std::string>& names, double rate,
+/// The pictures of a film.
+struct MovieFrames {
+  std::string folder;
+  std::string pattern;             ///< of their names, for ffmpeg: "frame_%06d.png"
+  std::vector<std::string> names;  ///< without the folder, in order
+  double rate = 0;                 ///< frames per second
+};
+
+/// Makes a film of a folder's pictures under a temporary name in the folder, and renames it to
+/// `file`, a path. Throws std::runtime_error with the program's answer if the program fails.
+void make_movie(const MovieMaker& maker, MovieKind kind, const MovieFrames& frames,
                 const std::string& file);
 
 }  // namespace hyperlattice::render

@@ -148,10 +148,11 @@ Schema<Options> options_schema() {
                              "picture")
       .choices(format_names)
       .fallback("\"png\"")
-      .add<&Options::movie>("movie", "",
-                            "a film of all frames, at the end of the run, if ffmpeg or, for gif "
-                            "and webp, ImageMagick is installed; give a range and \"fit\": "
-                            "\"rest\" with it")
+      .add<&Options::movie>(
+          "movie", "",
+          "a film of all frames, when the run ends or is interrupted, if ffmpeg or, for gif "
+          "and webp, ImageMagick is installed; give a range and \"fit\": "
+          "\"rest\" with it")
       .choices(movie_names)
       .fallback("\"none\"")
       .add<&Options::frame_rate>("frame_rate", "1/s", "frames of the film per second")

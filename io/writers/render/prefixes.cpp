@@ -10,16 +10,23 @@
 namespace hyperlattice::render {
 
 PrefixedUnit prefixed(std::string_view unit, double size) {
-  constexpr std::string_view known[] = {"m", "s", "Pa", "N", "m/s", "m/s2", "J/m3"};
-  constexpr std::array<const char*, 7> prefixes{"n", "\u00b5", "m", "", "k", "M", "G"};
-  if (std::find(std::begin(known), std::end(known), unit) == std::end(known) ||
-      !(std::isfinite(size) && size > 0))
-    return {1, std::string(unit)};
+  /// A unit with the greatest power of 1000 that is usual with it.
+  struct Known {
+    std::string_view unit;
+    int most;
+  };
+  constexpr Known known[] = {{"m", 1},   {"s", 0},    {"Pa", 3},  {"N", 3},
+                             {"m/s", 1}, {"m/s2", 1}, {"J/m3", 3}};
+  constexpr int least = -4;
+  constexpr std::array<const char*, 8> prefixes{"p", "n", "\u00b5", "m", "", "k", "M", "G"};
+  const auto* const found = std::find_if(std::begin(known), std::end(known),
+                                         [unit](const Known& one) { return one.unit == unit; });
+  if (found == std::end(known) || !(std::isfinite(size) && size > 0)) return {1, std::string(unit)};
   // A little more, so that 1e-3 gets the prefix of 1e-3.
-  const int thousands =
-      std::clamp(static_cast<int>(std::floor(std::log10(size * (1 + 1e-9)) / 3)), -3, 3);
-  return {std::pow(10.0, -3 * thousands),
-          prefixes[static_cast<std::size_t>(thousands + 3)] + std::string(unit)};
+  const double thousands = std::floor(std::log10(size * (1 + 1e-9)) / 3);
+  const int power = std::clamp(static_cast<int>(thousands), least, found->most);
+  return {std::pow(10.0, -3 * power),
+          prefixes[static_cast<std::size_t>(power - least)] + std::string(unit)};
 }
 
 std::string number_text(double value, std::string_view unit, int digits) {

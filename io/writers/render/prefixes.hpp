@@ -14,8 +14,8 @@ struct PrefixedUnit {
   std::string unit;
 };
 
-/// Returns the unit in which a number of this size has one to three digits before the point. Units
-/// that are not in the list of units with prefixes stay.
+/// Returns the unit in which a number of this size has one to three digits before the point, as far
+/// as the usual prefixes of the unit go: no kiloseconds. Other units stay as they are.
 PrefixedUnit prefixed(std::string_view unit, double size);
 
 /// Returns a number with its unit: "12.5 mm".

@@ -9,6 +9,7 @@
 #include "trace.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 namespace hyperlattice {
@@ -28,6 +29,8 @@ class Render {
   void begin(const OutputContext& context) {
     directory_ = context.directory;
     title_ = options_.title ? *options_.title : std::string(context.title);
+    const auto is_control = [](char c) { return static_cast<unsigned char>(c) < ' '; };
+    std::replace_if(title_.begin(), title_.end(), is_control, ' ');
     files_ = FrameFiles(context, options_.file,
                         "." + std::string(format_names[static_cast<std::size_t>(options_.format)]));
     frames_ = context.earlier.size();
@@ -64,7 +67,7 @@ class Render {
     const Mesh mesh = surface_of(body);
     const std::vector<Line> lines =
         options_.springs ? lines_of(snapshot, faces, is_drawn, positions) : std::vector<Line>();
-    draw(snapshot, mesh, lines, is_drawn, positions);
+    draw(snapshot, mesh, lines, is_drawn);
     files_.next();
     ++frames_;
   }
@@ -72,10 +75,9 @@ class Render {
   void end() {
     if (!maker_ || frames_ == 0) return;
     const std::string kind(movie_names[static_cast<std::size_t>(options_.movie)]);
-    std::vector<std::string> names;
-    for (std::uint64_t n = 0; n < frames_; ++n) names.push_back(files_.name(n));
-    make_movie(*maker_, options_.movie, directory_, options_.file + "_%06d.png", names,
-               options_.frame_rate, files_.path_of_series("." + kind));
+    MovieFrames frames{directory_, options_.file + "_%06d.png", {}, options_.frame_rate};
+    for (std::uint64_t n = 0; n < frames_; ++n) frames.names.push_back(files_.name(n));
+    make_movie(*maker_, options_.movie, frames, files_.path_of_series("." + kind));
   }
 
   /// Returns the bytes of the pixels and of a body whose surface is a tenth of its particles. How
@@ -148,8 +150,13 @@ class Render {
   picture::Camera camera_for(const Snapshot& snapshot, const Mesh& mesh,
                              const picture::Frame& frame) const {
     std::vector<double> points;
+    const auto is_finite = [&](const Triangle& triangle) {
+      const Vec3 point = mesh.points[triangle.points[0]];
+      return std::isfinite(point.x + point.y + point.z);
+    };
     // A plane may have taken everything away.
-    const bool rest = options_.fit == Fit::rest || mesh.triangles.empty();
+    const bool rest = options_.fit == Fit::rest ||
+                      std::none_of(mesh.triangles.begin(), mesh.triangles.end(), is_finite);
     if (rest)
       for (const Particle particle : drawn_) {
         const Vec3 point = position_of(snapshot, particle);
@@ -161,12 +168,13 @@ class Render {
           const Vec3 point = mesh.points[corner];
           points.insert(points.end(), {point.x, point.y, point.z});
         }
-    return picture::make_camera(points, rest ? snapshot.spacing : 0, view_of(options_),
+    constexpr double least = 1e-3;  // of a spacing, for a body that has collapsed to a point
+    return picture::make_camera(points, (rest ? 1 : least) * snapshot.spacing, view_of(options_),
                                 options_.camera == Projector::perspective, frame);
   }
 
   void draw(const Snapshot& snapshot, const Mesh& mesh, const std::vector<Line>& lines,
-            const std::vector<bool>& is_drawn, std::span<const double>) {
+            const std::vector<bool>& is_drawn) {
     const std::string_view colour_by =
         options_.colour_by ? std::string_view(*options_.colour_by) : "displacement";
     Appearance appearance = appearance_of(snapshot, options_, colour_by, is_drawn);
@@ -198,7 +206,8 @@ class Render {
                     options_.samples,
                     options_.background == Background::transparent,
                     options_.outline};
-    const Raster raster = trace(snapshot, scene, look, *camera_, options_.width, options_.height);
+    const Raster raster =
+        trace(snapshot, scene, look, *camera_, options_.width, options_.height, layout.body_area());
     Page page;
     page.raster = &raster;
     page.is_transparent = options_.background == Background::transparent;

@@ -185,7 +185,7 @@ float outline_at(const std::vector<Light>& lights, int width, int height, int x,
 }  // namespace
 
 Raster trace(const Snapshot& snapshot, const RayScene& scene, const Look& look,
-             const picture::Camera& camera, int width, int height) {
+             const picture::Camera& camera, int width, int height, picture::Frame area) {
   constexpr int band = 8;           // rows of a task
   constexpr float darkest = 0.85F;  // how much of the light the outline takes
   const auto index = [width](int x, int y) {
@@ -201,7 +201,13 @@ Raster trace(const Snapshot& snapshot, const RayScene& scene, const Look& look,
   };
   std::vector<Light> lights(index(0, height));
   const Tracer tracer(scene, look, camera);
-  for_pixels([&](int x, int y) { lights[index(x, y)] = tracer.pixel(x, y); });
+  const auto is_in_area = [&](double x, double y) {
+    return x >= area.left && x < area.left + area.width && y >= area.top &&
+           y < area.top + area.height;
+  };
+  for_pixels([&](int x, int y) {
+    if (is_in_area(x + 0.5, y + 0.5)) lights[index(x, y)] = tracer.pixel(x, y);
+  });
   Raster raster{width, height, {}};
   raster.pixels.resize(lights.size());
   const int radius = std::max(2, width / 500);

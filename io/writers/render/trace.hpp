@@ -25,8 +25,9 @@ struct Look {
   bool has_outline = false;     ///< a dark line where the body ends
 };
 
-/// Draws what the camera sees. The same bits for any number of threads.
+/// Draws what the camera sees in a part of the picture. The bits do not depend on the number of
+/// threads.
 Raster trace(const Snapshot& snapshot, const RayScene& scene, const Look& look,
-             const picture::Camera& camera, int width, int height);
+             const picture::Camera& camera, int width, int height, picture::Frame area);
 
 }  // namespace hyperlattice::render
