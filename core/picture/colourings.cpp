@@ -66,6 +66,10 @@ const ColouringNames& colourings() {
   return all.names;
 }
 
+std::string usual_colouring(std::span<const std::string_view> fields) {
+  return std::string(is_one_of(fields, "broken_open") ? failure : "displacement");
+}
+
 QuantityOptions quantity_of(std::string_view colouring) {
   const FieldPart of = find_field_part(colouring);
   if (of.field == nullptr) return {std::string(colouring), std::nullopt, {}};
@@ -88,6 +92,11 @@ NumberRange range_of(std::span<const double> values) {
       range.high = std::max(range.high, value);
     }
   return range.low <= range.high ? range : NumberRange{};
+}
+
+void check_range(const std::optional<std::vector<double>>& range, const FaultSink& faults) {
+  if (range && !(range->size() == 2 && range->front() < range->back()))
+    faults.fault("range", "two numbers, the smaller first");
 }
 
 Colour colour_of(ColourMap map, double share) {

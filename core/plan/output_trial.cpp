@@ -1,6 +1,5 @@
 #include <base/errors.hpp>
 #include <base/figures.hpp>
-#include <base/visible.hpp>
 #include <model/acted_particles.hpp>
 #include <model/build.hpp>
 #include <model/section.hpp>
@@ -8,6 +7,7 @@
 #include <plan/fields.hpp>
 #include <plan/output_trial.hpp>
 #include <plan/trial_folder.hpp>
+#include <plan/writer_warning.hpp>
 #include <process/file_limit.hpp>
 #include <process/lack_of_memory.hpp>
 #include <process/room.hpp>
@@ -80,9 +80,8 @@ class BodyAtRest {
     };
     context.receive_warning = [](void* self, std::string_view sentence) noexcept {
       PluginCall::answer([&] {
-        constexpr std::size_t most = 20, longest = 4096;
         auto& warnings = static_cast<BodyAtRest*>(self)->warnings_;
-        if (warnings.size() < most) warnings.push_back(visible_line(sentence, longest));
+        if (warnings.size() < most_writer_warnings) warnings.emplace_back(sentence);
       });
     };
     return context;
@@ -371,8 +370,7 @@ void try_outputs(Plan& plan, Faults& faults) {
     }
     plan.used_fields[stage] = rest.take_used();
     for (const std::string& warning : rest.take_warnings())
-      plan.model->warnings.push_back(
-          fmt::format("{} ({}): {}", stage->name, stage->pointer, warning));
+      plan.model->warnings.push_back(writer_warning(*stage, warning));
     if (const auto memory = stage->functions<WriterFunctions>().memory; memory != nullptr)
       plan.writer_bytes[stage] = std::max(0.0, memory(writer.get()));
     if (!faults.empty()) continue;

@@ -123,8 +123,11 @@ TEST(RenderRuns, AFilmThatFailsLeavesTheFrames) {
   const std::string scene = write_scene(folder, sphere_with({{"every", "5 us"}, {"movie", "mp4"}}));
   const Result result =
       run_program({"run", scene, "--out", folder.file("out")}, with("PATH=" + folder.path()));
-  EXPECT_EQ(result.exit_code, 4);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.err.find("no such encoder"), std::string::npos) << result.err;
+  EXPECT_NE(read_json(folder.file("out/summary.json"))["warnings"].dump().find("no such encoder"),
+            std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(folder.file("out/render.mp4")));
   EXPECT_TRUE(std::filesystem::exists(folder.file("out/render_000002.png")));
 }
 

@@ -79,6 +79,19 @@ TEST(Render, ATurnedCubeHasTheAreaOfItsProjection) {
   }
 }
 
+TEST(Render, UpPointsUp) {
+  const auto width_by_height = [](json options) {
+    Block block({2, 3, 6});
+    const Extent extent = extent_of(draw(block, bare(std::move(options))), zero_colour);
+    return 1.0 * extent.width() / extent.height();
+  };
+  EXPECT_NEAR(width_by_height({{"from", "z"}}), 2.0 / 3, 0.01);
+  EXPECT_NEAR(width_by_height({{"from", "z"}, {"up", {1, 0, 0}}}), 3.0 / 2, 0.01);
+  EXPECT_NEAR(width_by_height({{"from", "y"}}), 2.0 / 6, 0.01);
+  EXPECT_NEAR(width_by_height({{"from", "x"}, {"up", {0, 1, 0}}}), 6.0 / 3, 0.01);
+  EXPECT_NEAR(width_by_height({{"from", "x"}, {"up", {1, 0, 0}}}), 3.0 / 6, 0.01);  // at the eye
+}
+
 TEST(Render, AUniformFieldHasTheColourOfTheLegend) {
   Block block({3, 3, 3});
   block.pressure.assign(block.particles, 0.37);

@@ -6,11 +6,11 @@
 #include "render.hpp"
 
 #include <picture/colourings.hpp>
+#include <picture/drawn_particles.hpp>
 
 #include <hyperlattice/frames.hpp>
 
 #include <functional>
-#include <iterator>
 
 namespace hyperlattice {
 namespace {
@@ -18,10 +18,6 @@ namespace {
 using namespace picture;
 
 constexpr std::string_view forms[] = {"cubes", "spheres"};
-constexpr std::string_view cameras[] = {"orthographic", "perspective"};
-constexpr std::string_view fits[] = {"rest", "frame"};
-enum class Fit : std::uint32_t { rest, frame };
-enum class Projector : std::uint32_t { orthographic, perspective };
 
 std::string time_text(double time) {
   const bool micro = time < 1e-3, milli = time < 1;
@@ -72,14 +68,14 @@ class Picture {
         .add<&Options::view>("view", "", "direction from the body to the eye; z is up")
         .fallback("[1, -1.4, 0.9]")
         .add<&Options::camera>("camera", "", "whether far things look smaller")
-        .choices(cameras)
+        .choices(projector_names)
         .fallback("\"orthographic\"")
         .add<&Options::fit>(
             "fit", "",
             "what fills the picture: rest: the body at rest, seen from one place in all frames, so "
             "that motion is seen as such; "
             "frame: the body as it is drawn in each frame, however far it has moved")
-        .choices(fits)
+        .choices(fit_names)
         .fallback("\"rest\"")
         .add<&Options::particles>("particles", "", "how a particle is drawn")
         .choices(forms)
@@ -98,9 +94,7 @@ class Picture {
         .check([](const Options& options, const FaultSink& faults) {
           check_file_name(options.file, faults);
           if (options.view == Vec3{}) faults.fault("view", "a direction that is not zero");
-          if (options.range &&
-              !(options.range->size() == 2 && options.range->front() < options.range->back()))
-            faults.fault("range", "two numbers, the smaller first");
+          check_range(options.range, faults);
         });
   }
 
@@ -109,18 +103,10 @@ class Picture {
   void begin(const OutputContext& context) {
     title_ = context.title;
     files_ = FrameFiles(context, options_.file, ".png");
-    const auto whole = context.particles(options_.region);
-    drawn_ = whole_ = Selection(whole);
-    if (options_.cut) {
-      const auto cut = context.particles(*options_.cut);
-      std::vector<Particle> left;
-      std::set_difference(whole.begin(), whole.end(), cut.begin(), cut.end(),
-                          std::back_inserter(left));
-      if (left.empty()) throw std::runtime_error("the cut takes every particle away");
-      drawn_ = Selection(left);
-    }
+    drawn_ = Selection(drawn_particles(context, options_.region, options_.cut));
+    whole_ = Selection(context.particles(options_.region));
     if (!options_.colour_by && !context.fields.empty())
-      options_.colour_by = is_one_of(context.fields, "broken_open") ? failure : "displacement";
+      options_.colour_by = usual_colouring(context.fields);
     if (!options_.colour_by) return;
     if (options_.scale != 0) require_field(context, "displacement");
     if (*options_.colour_by != failure)
@@ -139,9 +125,9 @@ class Picture {
                              ? whole_.positions(snapshot, options_.scale, buffer)
                              : whole_.of(snapshot.positions, 3, buffer);
       const double border = 0.04 * image.width, foot = legend_height(image.width);
-      camera_ = make_camera(
-          shown, snapshot.spacing, options_.view, options_.camera == Projector::perspective,
-          {border, border, image.width - 2 * border, image.height - border - foot});
+      camera_ =
+          make_camera(shown, snapshot.spacing, options_.view, options_.camera,
+                      {border, border, image.width - 2 * border, image.height - border - foot});
     }
     const Colouring colouring =
         *options_.colour_by == failure ? colour_by_failure(snapshot) : colour_by_field(snapshot);

@@ -10,9 +10,7 @@ constexpr std::size_t numbers_per_plane = 6;
 
 void check_options(const Options& options, const FaultSink& faults) {
   check_file_name(options.file, faults);
-  if (options.range &&
-      !(options.range->size() == 2 && options.range->front() < options.range->back()))
-    faults.fault("range", "two numbers, the smaller first");
+  picture::check_range(options.range, faults);
   bool is_flat = options.clip.size() % numbers_per_plane == 0;
   for (std::size_t n = 3; is_flat && n < options.clip.size(); n += numbers_per_plane)
     is_flat = Vec3{options.clip[n], options.clip[n + 1], options.clip[n + 2]} != Vec3{};
@@ -66,8 +64,10 @@ Schema<Options> options_schema() {
                                  "where the eye is: on an axis through the body, or isometric")
       .choices(standpoint_names)
       .fallback("\"isometric\"")
-      .add<&Options::view>("view", "",
-                           "direction from the body to the eye, in place of from; z is up")
+      .add<&Options::view>("view", "", "direction from the body to the eye, in place of from")
+      .nonzero()
+      .add<&Options::up>("up", "", "direction that points up in the picture")
+      .fallback("[0, 0, 1]")
       .nonzero()
       .add<&Options::azimuth>("azimuth", "rad",
                               "angle of the eye around z from x towards y, in place of from")
@@ -77,13 +77,13 @@ Schema<Options> options_schema() {
       .at_most(1.5707963267948966)
       .example("0.5")
       .add<&Options::camera>("camera", "", "whether far things look smaller")
-      .choices(camera_names)
+      .choices(picture::projector_names)
       .fallback("\"orthographic\"")
       .add<&Options::fit>("fit", "",
                           "what fills the picture: frame: the body as it is drawn in each frame; "
                           "rest: the body at rest, seen from one place in all frames, so that "
                           "motion is seen as such")
-      .choices(fit_names)
+      .choices(picture::fit_names)
       .fallback("\"frame\"")
       .add<&Options::scale>("scale", "", "displacements are drawn this many times as large")
       .fallback("1")
@@ -167,7 +167,7 @@ Schema<Options> options_schema() {
           "transparent body has no shade between its parts. The run waits for these files.")
       .source(
           "colours: viridis, cividis, ColorBrewer RdBu; Okabe and Ito (2008) for failure; rays by "
-          "Embree; smoothing by Taubin (1995)")
+          "Embree (Apache 2.0), texts by Cairo (LGPL 2.1 or MPL 1.1); smoothing by Taubin (1995)")
       .check(check_options);
 }
 

@@ -5,6 +5,7 @@
 #include "movie.hpp"
 #include "page.hpp"
 
+#include <picture/camera.hpp>
 #include <picture/colourings.hpp>
 
 #include <hyperlattice/frames.hpp>
@@ -12,13 +13,11 @@
 namespace hyperlattice::render {
 
 using picture::ColourMap;
+using picture::Fit;
+using picture::Projector;
 
 constexpr std::string_view standpoint_names[] = {"isometric", "x", "-x", "y", "-y", "z", "-z"};
 enum class Standpoint : std::uint32_t { isometric, x, minus_x, y, minus_y, z, minus_z };
-constexpr std::string_view camera_names[] = {"orthographic", "perspective"};
-enum class Projector : std::uint32_t { orthographic, perspective };
-constexpr std::string_view fit_names[] = {"frame", "rest"};
-enum class Fit : std::uint32_t { frame, rest };
 constexpr std::string_view failure_colour_names[] = {"safe", "paper"};
 enum class FailureColours : std::uint32_t { safe, paper };
 constexpr std::string_view background_names[] = {"white", "transparent"};
@@ -35,6 +34,7 @@ struct Options {
   std::optional<std::vector<double>> range;
   Standpoint standpoint = Standpoint::isometric;
   std::optional<Vec3> view;
+  Vec3 up;
   std::optional<double> azimuth, elevation;
   Projector camera = Projector::orthographic;
   Fit fit = Fit::frame;

@@ -8,9 +8,11 @@
 #include "prefixes.hpp"
 #include "trace.hpp"
 
+#include <picture/drawn_particles.hpp>
+
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <functional>
 
 namespace hyperlattice {
 namespace {
@@ -34,17 +36,20 @@ class Render {
     files_ = FrameFiles(context, options_.file,
                         "." + std::string(format_names[static_cast<std::size_t>(options_.format)]));
     frames_ = context.earlier.size();
-    take_particles(context);
+    drawn_ = picture::drawn_particles(context, options_.region, options_.cut);
     const auto cuts = context.cut_faces();
     cuts_.assign(cuts.begin(), cuts.end());
     check_fields(context);
     if (options_.movie == MovieKind::none) return;
+    warn_ = [receive = context.receive_warning, run = context.self](std::string_view sentence) {
+      if (receive != nullptr) receive(run, sentence);
+    };
     maker_ = find_movie_maker(options_.movie);
     if (!maker_)
-      context.warn(options_.movie == MovieKind::mp4
-                       ? "no film is made, because ffmpeg is not installed; the frames are written"
-                       : "no film is made, because neither ffmpeg nor ImageMagick is installed; "
-                         "the frames are written");
+      warn_(options_.movie == MovieKind::mp4
+                ? "no film is made, because ffmpeg is not installed; the frames are written"
+                : "no film is made, because neither ffmpeg nor ImageMagick is installed; the "
+                  "frames are written");
   }
 
   void frame(const Snapshot& snapshot) {
@@ -77,40 +82,32 @@ class Render {
     const std::string kind(movie_names[static_cast<std::size_t>(options_.movie)]);
     MovieFrames frames{directory_, options_.file + "_%06d.png", {}, options_.frame_rate};
     for (std::uint64_t n = 0; n < frames_; ++n) frames.names.push_back(files_.name(n));
-    make_movie(*maker_, options_.movie, frames, files_.path_of_series("." + kind));
+    const std::string file = files_.path_of_series("." + kind);
+    // The run is as good without its film.
+    try {
+      make_movie(*maker_, options_.movie, frames, file);
+    } catch (const std::runtime_error& error) {
+      warn_(error.what());
+    }
   }
 
-  /// Returns the bytes of the pixels and of a body whose surface is a tenth of its particles. How
-  /// large the surface becomes by cracks nobody knows.
+  /// Returns the bytes of the pixels and of a body whose surface is a tenth of its particles. The
+  /// surface of a body with many cracks is larger; its size is not known before the run.
   double memory_bytes() const noexcept {
-    constexpr double grid = 4, colours = 3, positions = 24, surface = 0.1 * 12 * 150;
+    constexpr double grid = 8 * 2 * 4;  // eight cubes a particle, in a grid half of which is empty
+    constexpr double colours = 3, positions = 24, surface = 0.1 * 12 * 150;
     const double pixels = static_cast<double>(options_.width) * options_.height;
     return (16 + 4 * 2) * pixels +
            static_cast<double>(drawn_.size()) * (grid + colours + positions + surface);
   }
 
  private:
-  void take_particles(const OutputContext& context) {
-    const auto whole = context.particles(options_.region);
-    if (whole.empty()) throw std::runtime_error("no particle lies in the region");
-    drawn_.assign(whole.begin(), whole.end());
-    if (!options_.cut) return;
-    const auto cut = context.particles(*options_.cut);
-    std::vector<Particle> left;
-    std::set_difference(drawn_.begin(), drawn_.end(), cut.begin(), cut.end(),
-                        std::back_inserter(left));
-    if (left.empty()) throw std::runtime_error("the cut takes every particle away");
-    drawn_ = std::move(left);
-  }
-
   void check_fields(const OutputContext& context) {
     if (context.fields.empty()) return;
     const auto check = [&](std::string_view name) {
       if (!is_one_of(context.fields, name)) refuse_field(name, context.fields);
     };
-    if (!options_.colour_by)
-      options_.colour_by =
-          is_one_of(context.fields, "broken_open") ? picture::failure : "displacement";
+    if (!options_.colour_by) options_.colour_by = picture::usual_colouring(context.fields);
     check("displacement");
     if (*options_.colour_by != picture::failure)
       return check(picture::quantity_of(*options_.colour_by).field);
@@ -170,7 +167,7 @@ class Render {
         }
     constexpr double least = 1e-3;  // of a spacing, for a body that has collapsed to a point
     return picture::make_camera(points, (rest ? 1 : least) * snapshot.spacing, view_of(options_),
-                                options_.camera == Projector::perspective, frame);
+                                options_.camera, frame, direction_of(options_.up));
   }
 
   void draw(const Snapshot& snapshot, const Mesh& mesh, const std::vector<Line>& lines,
@@ -193,19 +190,19 @@ class Render {
     if (!camera_ || options_.fit == Fit::frame)
       camera_ = camera_for(snapshot, mesh, layout.frame());
     const RayScene scene(mesh, lines, 0.05 * snapshot.spacing, *camera_, options_.smooth > 0);
-    const Look look{appearance.particles,
-                    mesh.triangles,
-                    lines,
-                    options_.cracks,
-                    crack_colour,
-                    open_colour(options_),
-                    closed_colour(options_),
-                    options_.opacity,
-                    options_.light,
-                    5 * snapshot.spacing * camera_->scale,
-                    options_.samples,
-                    options_.background == Background::transparent,
-                    options_.outline};
+    const Look look{.particles = appearance.particles,
+                    .triangles = mesh.triangles,
+                    .lines = lines,
+                    .has_crack_colour = options_.cracks,
+                    .crack = crack_colour,
+                    .open_line = open_colour(options_),
+                    .closed_line = closed_colour(options_),
+                    .opacity = options_.opacity,
+                    .light = options_.light,
+                    .shade_reach = 5 * snapshot.spacing * camera_->scale,
+                    .samples = options_.samples,
+                    .is_transparent = options_.background == Background::transparent,
+                    .has_outline = options_.outline};
     const Raster raster =
         trace(snapshot, scene, look, *camera_, options_.width, options_.height, layout.body_area());
     Page page;
@@ -226,6 +223,7 @@ class Render {
   RestCorners corners_;          ///< likewise
   std::optional<picture::Camera> camera_;
   std::optional<MovieMaker> maker_;
+  std::function<void(std::string_view)> warn_;  ///< tells the user; set if a film is asked for
 };
 
 }  // namespace

@@ -5,8 +5,10 @@
 
 #include <hyperlattice/fields.hpp>
 
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace hyperlattice::picture {
 
@@ -30,6 +32,10 @@ using ColouringNames = std::string_view[count_of_colourings()];
 /// "stress_xx".
 const ColouringNames& colourings();
 
+/// Returns the colouring of pictures that name none: by failure if the run's springs can break,
+/// else by displacement.
+std::string usual_colouring(std::span<const std::string_view> fields);
+
 /// Returns the quantity of a colouring: "displacement_y" is the component y of the field
 /// displacement, "displacement" its magnitude.
 QuantityOptions quantity_of(std::string_view colouring);
@@ -39,6 +45,9 @@ struct NumberRange {
   double low = 0, high = 0;
 };
 NumberRange range_of(std::span<const double> values);
+
+/// Checks the option "range": two numbers, if there are any.
+void check_range(const std::optional<std::vector<double>>& range, const FaultSink& faults);
 
 /// Returns the place of a value in a range, for a colour map: 0 for all values if the range is a
 /// point.

@@ -163,7 +163,8 @@ struct OutputContext {
   /// Null: this body's are not known.
   std::span<const CrackFace> (*get_cut_faces)(void* self) noexcept = nullptr;
 
-  /// Receives a sentence for warn(); null: the plan has told it already.
+  /// Receives a sentence for warn(). A writer may call it until its end() returns. Null: nobody
+  /// listens.
   void (*receive_warning)(void* self, std::string_view sentence) noexcept = nullptr;
 
   /// Returns the particles of the region in ascending order.
@@ -193,7 +194,8 @@ struct OutputContext {
   std::span<const CrackFace> cut_faces() const {
     return get_cut_faces == nullptr ? std::span<const CrackFace>() : get_cut_faces(self);
   }
-  /// Tells the user, in begin() of a writer, what it will not do as the scene asks, and why.
+  /// Tells the user what a writer does not do as the scene asks, and why. The plan tells what
+  /// begin() warns of, the run what frame() and end() warn of.
   void warn(std::string_view sentence) const {
     if (receive_warning != nullptr) receive_warning(self, sentence);
   }
