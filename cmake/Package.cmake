@@ -1,4 +1,4 @@
-# Debian packages of the installed tree, hyperlattice, hyperlattice-mpi and python3-hyperlattice:
+# Debian packages of the installed tree, hyperlattice, hyperlattice-mpi, hyperlattice-render and python3-hyperlattice:
 # `cpack --config build/release/CPackConfig.cmake`. dpkg-shlibdeps finds the packages that their
 # libraries need.
 set(CPACK_GENERATOR DEB)
@@ -30,15 +30,26 @@ if(TARGET engines.mpi)
   set(CPACK_DEBIAN_MPI_PACKAGE_RECOMMENDS openmpi-bin)
   set(CPACK_COMPONENT_GROUP_MPI_DESCRIPTION "${PROJECT_DESCRIPTION}: several processes for one run")
 endif()
+if(TARGET writers.render)
+  # Of its own, so that the program needs neither Embree nor Cairo.
+  set(CPACK_DEBIAN_RENDER_PACKAGE_NAME hyperlattice-render)
+  set(CPACK_DEBIAN_RENDER_PACKAGE_DEPENDS "hyperlattice (= ${PROJECT_VERSION})")
+  set(CPACK_DEBIAN_RENDER_PACKAGE_RECOMMENDS "fonts-dejavu-core, ffmpeg | imagemagick")
+  set(CPACK_COMPONENT_GROUP_RENDER_DESCRIPTION "${PROJECT_DESCRIPTION}: pictures for papers")
+endif()
 set(CPACK_COMPONENT_GROUP_MAIN_DESCRIPTION "${PROJECT_DESCRIPTION}")
 include(CPack)
 cpack_add_component_group(main)
 cpack_add_component_group(python)
 cpack_add_component_group(mpi)
+cpack_add_component_group(render)
 cpack_add_component(Unspecified GROUP main)
 cpack_add_component(plugins GROUP main)
 if(TARGET engines.mpi)
   cpack_add_component(mpi GROUP mpi)
+endif()
+if(TARGET writers.render)
+  cpack_add_component(render GROUP render)
 endif()
 if(TARGET hyperlattice_python)
   cpack_add_component(python GROUP python)

@@ -7,6 +7,7 @@
 #include <plan/fields.hpp>
 #include <plan/output_trial.hpp>
 #include <plan/trial_folder.hpp>
+#include <plan/writer_warning.hpp>
 #include <process/file_limit.hpp>
 #include <process/lack_of_memory.hpp>
 #include <process/room.hpp>
@@ -77,6 +78,12 @@ class BodyAtRest {
         if (has_field(rest.model_, name)) rest.used_.emplace_back(name);
       });
     };
+    context.receive_warning = [](void* self, std::string_view sentence) noexcept {
+      PluginCall::answer([&] {
+        auto& warnings = static_cast<BodyAtRest*>(self)->warnings_;
+        if (warnings.size() < most_writer_warnings) warnings.emplace_back(sentence);
+      });
+    };
     return context;
   }
 
@@ -86,6 +93,8 @@ class BodyAtRest {
   std::vector<RegionId> take_asked() { return std::exchange(asked_, {}); }
   /// Returns the fields that were named since the last call.
   std::vector<std::string> take_used() { return std::exchange(used_, {}); }
+  /// Returns the warnings that were given since the last call.
+  std::vector<std::string> take_warnings() { return std::exchange(warnings_, {}); }
 
   /// Returns the snapshot for probes; writers do not need it.
   /// Throws OutsideError if there is no room for it, but InputError if there are faults.
@@ -131,7 +140,7 @@ class BodyAtRest {
   ActedParticles acted_;
   std::vector<std::string_view> fields_;
   std::vector<RegionId> asked_;
-  std::vector<std::string> used_;
+  std::vector<std::string> used_, warnings_;
   std::vector<CrackFace> cut_faces_;
   std::vector<double> positions_;
   std::map<std::uint32_t, std::vector<double>> zeros_;  ///< by number of components
@@ -351,6 +360,7 @@ void try_outputs(Plan& plan, Faults& faults) {
     const ComponentPointer writer = make_component(*stage);
     rest.take_asked();
     rest.take_used();
+    rest.take_warnings();
     const auto refused = refusal_of(*stage, "begin", [&](const Complaint& why) {
       return stage->functions<WriterFunctions>().begin(writer.get(), context, why);
     });
@@ -359,6 +369,8 @@ void try_outputs(Plan& plan, Faults& faults) {
       continue;
     }
     plan.used_fields[stage] = rest.take_used();
+    for (const std::string& warning : rest.take_warnings())
+      plan.model->warnings.push_back(writer_warning(*stage, warning));
     if (const auto memory = stage->functions<WriterFunctions>().memory; memory != nullptr)
       plan.writer_bytes[stage] = std::max(0.0, memory(writer.get()));
     if (!faults.empty()) continue;

@@ -1,6 +1,7 @@
 #include <host/plugin_call.hpp>
 #include <plan/fields.hpp>
 #include <run/frame_copy.hpp>
+#include <run/writer_tasks.hpp>
 
 #include <hyperlattice/fields.hpp>
 
@@ -19,9 +20,10 @@ void FrameCopy::take(SnapshotSource& source, const FieldNames& fields) {
   };
   snapshot_.get_fragments = nullptr;  // the state goes on
   snapshot_.get_crack_faces = nullptr;
+  snapshot_.get_cubes = nullptr;
   snapshot_.run_tasks = [](void* self, std::uint64_t count, void* work,
                            void (*task)(void* work, std::uint64_t n) noexcept) noexcept {
-    static_cast<FrameCopy*>(self)->run_tasks(count, work, task);
+    run_writer_tasks(static_cast<FrameCopy*>(self)->team_, count, work, task);
   };
   for (auto& [name, values] : fields_) values.current = is_constant_field(name);
   for (const std::string& name : fields)
@@ -36,19 +38,6 @@ bool FrameCopy::field(std::string_view name, Field& out) const {
         fmt::format("it asked for the field \"{}\", which it did not name in begin()", name));
   out = {found->second.components, found->second.numbers};
   return true;
-}
-
-/// Each thread counts as one that runs the plugin, so that a crash names it.
-void FrameCopy::run_tasks(std::uint64_t count, void* work,
-                          void (*task)(void* work, std::uint64_t n) noexcept) const {
-  const PluginCall* caller = PluginCall::running();
-  PluginCall::answer([&] {
-    team_.for_each(count, [&](std::size_t n) {
-      PluginCall part(caller->name(), caller->library(), caller->function());
-      task(work, n);
-      part.failure(true);
-    });
-  });
 }
 
 }  // namespace hyperlattice

@@ -27,8 +27,6 @@ class FrameCopy {
 
  private:
   bool field(std::string_view name, Field& out) const;
-  void run_tasks(std::uint64_t count, void* work,
-                 void (*task)(void* work, std::uint64_t n) noexcept) const;
 
   const Model& model_;
   Team& team_;

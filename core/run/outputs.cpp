@@ -1,6 +1,7 @@
 #include <plan/columns.hpp>
 #include <plan/fields.hpp>
 #include <plan/plan.hpp>
+#include <plan/writer_warning.hpp>
 #include <run/outputs.hpp>
 #include <scene/stage_call.hpp>
 #include <state/archive.hpp>
@@ -148,6 +149,12 @@ OutputContext Outputs::context_of(Output& output) const {
       if (has_field(writer.owner->model_, name)) writer.fields.emplace(name);
     });
   };
+  context.receive_warning = [](void* self, std::string_view sentence) noexcept {
+    PluginCall::answer([&] {
+      const Output& writer = *static_cast<Output*>(self);
+      writer.owner->warn(writer, sentence);
+    });
+  };
   offer_forces(context);
   return context;
 }
@@ -156,6 +163,20 @@ void Outputs::announce(const Output& output, std::string_view file, bool rewritt
   if (!output.is_writing) throw PluginMistake("it announced a file when it was not asked to write");
   folder_.claim(output.name.empty() ? std::string(file) : fmt::format("{}/{}", output.name, file),
                 rewritten);
+}
+
+/// The plan has told the warnings of begin().
+void Outputs::warn(const Output& output, std::string_view sentence) {
+  if (!output.is_writing) return;
+  const std::lock_guard lock(warnings_mutex_);
+  if (warnings_.size() >= most_writer_warnings) return;
+  warnings_.push_back(writer_warning(*output.stage, sentence));
+  spdlog::warn("warning: {}", warnings_.back());
+}
+
+std::vector<std::string> Outputs::warnings() const {
+  const std::lock_guard lock(warnings_mutex_);
+  return warnings_;
 }
 
 void Outputs::show(double time_step) {

@@ -9,6 +9,7 @@
 #include <run/snapshot.hpp>
 
 #include <list>
+#include <mutex>
 #include <optional>
 
 namespace hyperlattice {
@@ -36,6 +37,8 @@ class Outputs {
   void drain();
   /// Closes the writers.
   void end();
+  /// Returns what writers have told the user since they began.
+  std::vector<std::string> warnings() const;
 
  private:
   struct Output {
@@ -56,6 +59,7 @@ class Outputs {
   static void offer_forces(OutputContext& context);
   OutputContext context_of(Output& output) const;
   void announce(const Output& output, std::string_view file, bool rewritten);
+  void warn(const Output& output, std::string_view sentence);
   bool has_seen_this(const Output& output) const {
     return !output.shown.empty() && output.shown.back().step == simulation_.steps();
   }
@@ -75,6 +79,8 @@ class Outputs {
   std::list<Output> outputs_;
   RegionIndex regions_;
   ActedParticles acted_;
+  mutable std::mutex warnings_mutex_;  ///< frames may be written on another thread
+  std::vector<std::string> warnings_;
   std::optional<FrameQueue> queue_;  ///< none: frames are written at once
 };
 

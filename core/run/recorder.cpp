@@ -147,6 +147,7 @@ void Recorder::note(Outcome& outcome) {
   if (std::string sentence = cells_.sentence(); !sentence.empty())
     outcome.warnings.push_back(std::move(sentence));
   outcome.warnings.insert(outcome.warnings.end(), warnings_.begin(), warnings_.end());
+  for (std::string& warning : outputs_.warnings()) outcome.warnings.push_back(std::move(warning));
 }
 
 }  // namespace hyperlattice

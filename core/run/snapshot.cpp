@@ -1,6 +1,7 @@
 #include <host/plugin_call.hpp>
 #include <plan/fields.hpp>
 #include <run/snapshot.hpp>
+#include <run/writer_tasks.hpp>
 #include <state/crack_faces.hpp>
 #include <state/force_sums.hpp>
 #include <state/fragments.hpp>
@@ -54,12 +55,21 @@ SnapshotSource::SnapshotSource(const Model& model, Simulation& simulation)
       return static_cast<SnapshotSource*>(self)->crack_faces(damage);
     });
   };
+  snapshot_.get_cubes = [](void* self) noexcept {
+    return PluginCall::answer(BodyCubes(),
+                              [&] { return static_cast<SnapshotSource*>(self)->cubes(); });
+  };
+  snapshot_.run_tasks = [](void* self, std::uint64_t count, void* work,
+                           void (*task)(void* work, std::uint64_t n) noexcept) noexcept {
+    run_writer_tasks(static_cast<SnapshotSource*>(self)->simulation_.team(), count, work, task);
+  };
 }
 
 void SnapshotSource::renew() {
   for (auto& [name, values] : fields_) values.current = false;
   forces_current_ = false;
   measured_.reset();
+  cubes_ = {};
 }
 
 const Snapshot& SnapshotSource::take() {
@@ -178,6 +188,11 @@ std::span<const double> SnapshotSource::fragments(double damage) {
 std::span<const CrackFace> SnapshotSource::crack_faces(double damage) {
   crack_faces_ = hyperlattice::crack_faces(model_, simulation_, damage);
   return crack_faces_;
+}
+
+BodyCubes SnapshotSource::cubes() {
+  if (cubes_.particle.empty()) cubes_ = cubes_of(model_.body);
+  return cubes_.view();
 }
 
 void SnapshotSource::stress(std::vector<double>& numbers) {

@@ -1,6 +1,7 @@
 // The view of a running simulation that writers and probes get.
 #pragma once
 
+#include <model/body_cubes.hpp>
 #include <run/measured.hpp>
 
 #include <hyperlattice/output.hpp>
@@ -76,6 +77,7 @@ class SnapshotSource {
   Resultant resultant(ForcesId forces, Vec3 about);
   std::span<const double> fragments(double damage);
   std::span<const CrackFace> crack_faces(double damage);
+  BodyCubes cubes();
   void count_broken(std::vector<double>& numbers, bool open);
 
   const Model& model_;
@@ -90,6 +92,7 @@ class SnapshotSource {
   std::vector<double> masses_;  ///< kg; filled when fragments are first asked for
   std::vector<double> fragments_;
   std::vector<CrackFace> crack_faces_;
+  CubeGrid cubes_;  ///< until the state changes; filled when cubes are asked for
 };
 
 }  // namespace hyperlattice

@@ -5,6 +5,8 @@
 
 namespace hyperlattice {
 
+Team& Simulation::team() const { return state_->blocks.team(); }
+
 void Simulation::copy(const Quantity& quantity, std::vector<double>& values) const {
   const std::uint64_t all = state_->blocks.model().body.particles;
   values.resize(all * static_cast<std::size_t>(quantity.components));

@@ -26,6 +26,7 @@ struct SettledDamage;
 struct SoftCell;
 struct SoftParticle;
 struct SoftSpring;
+class Team;
 
 /// The moving body. Results have the same bits for any number of threads and ranks. All ranks must
 /// call the same functions in the same order, except while one acts alone (Ranks::Solo).
@@ -52,6 +53,8 @@ class Simulation {
   /// Advances the body by a time step, s. A step of another length than the one before costs one
   /// more evaluation of all springs. Throws RunError if a load is not a number.
   void step(double time_step);
+  /// Returns the threads of the run. They are idle between the calls of this class.
+  Team& team() const;
   double time() const;
   void set_time(double time);
   /// Holds the time at `time`, s: steps then do not advance it, and loads act as they do at that

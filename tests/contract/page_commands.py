@@ -37,10 +37,17 @@ esac
 """
 
 
-def has_mpi():
-    """Returns whether several processes can run a scene."""
-    names = subprocess.run([program, "plugins", "--names"], check=True, capture_output=True, text=True).stdout
-    return "engines.mpi" in names.split() and shutil.which("mpirun") is not None
+# Components that not every build has.
+names = subprocess.run([program, "plugins", "--names"], check=True, capture_output=True, text=True).stdout.split()
+HAS_MPI = "engines.mpi" in names and shutil.which("mpirun") is not None
+HAS_RENDER = "writers.render" in names
+
+
+def missing(commands):
+    """Returns what commands need that is not here, or an empty text."""
+    if not HAS_MPI and re.search(r"^mpirun ", commands, re.M):
+        return "no mpirun here, or no engines.mpi"
+    return "no writers.render here" if not HAS_RENDER and "/figure.json" in commands else ""
 
 
 def script_of(page):
@@ -55,8 +62,8 @@ def script_of(page):
             left_out.append(f"{page.relative_to(source)}:{line}: {skipped[1]}")
         elif name:
             files.append(f"cat > {name[-1]} <<'END OF FILE'\n{block[2]}END OF FILE\n")
-        elif block[1] in ("", "sh") and re.search(r"^mpirun ", block[2], re.M) and not has_mpi():
-            left_out.append(f"{page.relative_to(source)}:{line}: no mpirun here, or no engines.mpi")
+        elif block[1] in ("", "sh") and missing(block[2]):
+            left_out.append(f"{page.relative_to(source)}:{line}: {missing(block[2])}")
         elif block[1] in ("", "sh"):
             commands.append(f"echo '== {page.relative_to(source)}:{line}'\n{block[2]}")
     return "set -eu -o pipefail\n" + "".join(files + commands), len(commands), left_out

@@ -169,9 +169,15 @@ def relaxation(scene):
                               {"type": "solvers.relaxation", "tolerance": 1e-4}]
 
 
+def pictures(scene):
+    """Pictures of a body that breaks, with its cracks and broken springs."""
+    scene["pipeline"].append({"type": "writers.render", "every": "20 us", "cracks": True, "springs": True, "opacity": 0.5,
+                              "clip": [0.003, 0, 0, 1, 0, 0], "colour_by": "von_mises", "width": 160, "height": 120})
+
+
 CASES = [breaking, intact, floats, three_dimensions, partial_cells, volumetric_breaking, plastic, softening, rates, two_laws,
          bcc, random_lattice, contact, cohesive, cohesive_cells, crushed,
-         cohesive_implicit, local_steps, added_mass, rest_then_motion, relaxation]
+         cohesive_implicit, local_steps, added_mass, rest_then_motion, relaxation, pictures]
 TIMES = ("wall_seconds", "nanoseconds_per_particle_step", "peak_memory_bytes", "expected_seconds",
          "expected_seconds_at_most")
 

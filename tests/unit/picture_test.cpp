@@ -1,32 +1,12 @@
 // Pictures of small bodies against their geometry: the place and colour of each particle, and which
 // particles hide others.
 #include <support/output.hpp>
+#include <support/png.hpp>
 
 #include <gtest/gtest.h>
-#include <png.h>
 
 namespace hyperlattice::test {
 namespace picture_test {
-
-struct Pixels {
-  int width = 0, height = 0;
-  std::vector<png_byte> rgb;
-  const png_byte* at(int x, int y) const {
-    return &rgb[3 * static_cast<std::size_t>(y * width + x)];
-  }
-};
-
-Pixels read_png(const std::string& path) {
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  EXPECT_TRUE(png_image_begin_read_from_file(&image, path.c_str())) << image.message;
-  image.format = PNG_FORMAT_RGB;
-  Pixels pixels{static_cast<int>(image.width), static_cast<int>(image.height),
-                std::vector<png_byte>(PNG_IMAGE_SIZE(image))};
-  EXPECT_TRUE(png_image_finish_read(&image, nullptr, pixels.rgb.data(), 0, nullptr))
-      << image.message;
-  return pixels;
-}
 
 /// The area of a colour, without the legend at the foot and the time at the top.
 struct Patch {

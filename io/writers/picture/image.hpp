@@ -1,13 +1,11 @@
 // An image in memory.
 #pragma once
 
-#include <array>
-#include <cstdint>
+#include <picture/palette.hpp>
+
 #include <vector>
 
 namespace hyperlattice::picture {
-
-using Colour = std::array<std::uint8_t, 3>;  ///< red, green, blue, 0 to 255, as on a screen
 
 struct Image {
   Image(int w, int h)

@@ -1,6 +1,6 @@
 #include "legend.hpp"
 
-#include "palette.hpp"
+#include <picture/palette.hpp>
 
 namespace hyperlattice::picture {
 namespace {

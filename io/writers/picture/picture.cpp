@@ -2,74 +2,22 @@
 // open, and coloured by a field or by failure: a particle with an open failure is red, with closed
 // failures only green, and without broken springs blue.
 #include "legend.hpp"
-#include "palette.hpp"
 #include "png.hpp"
 #include "render.hpp"
 
+#include <picture/colourings.hpp>
+#include <picture/drawn_particles.hpp>
+
 #include <hyperlattice/frames.hpp>
 
-#include <deque>
 #include <functional>
-#include <iterator>
 
 namespace hyperlattice {
 namespace {
 
 using namespace picture;
 
-constexpr std::string_view failure = "failure";
-constexpr bool is_one_colour(const FieldInfo& field) {
-  return field.kind == FieldKind::number || field.kind == FieldKind::vector;
-}
-constexpr std::size_t count_of_colourings() {
-  std::size_t all = 1;
-  for (const FieldInfo& field : field_table) {
-    if (is_one_colour(field)) ++all;
-    if (field.kind != FieldKind::number) all += components_of(field);
-  }
-  return all;
-}
-/// "failure", all fields that have a number or a magnitude, and all components: "stress_xx".
-struct Colourings {
-  Colourings() {
-    std::size_t next = 0;
-    names[next++] = failure;
-    for (const FieldInfo& field : field_table) {
-      if (is_one_colour(field)) names[next++] = field.name;
-      if (field.kind != FieldKind::number)
-        for (const std::string_view part : parts_of(field.kind))
-          names[next++] = texts.emplace_back(std::string(field.name) + "_" + std::string(part));
-    }
-  }
-  std::deque<std::string> texts;
-  std::string_view names[count_of_colourings()];
-};
-const Colourings& colourings() {
-  static const Colourings all;
-  return all;
-}
-
 constexpr std::string_view forms[] = {"cubes", "spheres"};
-constexpr std::string_view cameras[] = {"orthographic", "perspective"};
-constexpr std::string_view fits[] = {"rest", "frame"};
-enum class Fit : std::uint32_t { rest, frame };
-enum class Projector : std::uint32_t { orthographic, perspective };
-
-/// Returns the quantity of a colouring: "displacement_y" is the component y of the field
-/// displacement, "displacement" its magnitude.
-QuantityOptions quantity_of(std::string_view colouring) {
-  const FieldPart of = find_field_part(colouring);
-  if (of.field == nullptr) return {std::string(colouring), std::nullopt, {}};
-  const std::string field(of.field->name);
-  if (of.part.empty())
-    return {
-        field,
-        of.field->kind == FieldKind::vector ? std::optional(Projection::magnitude) : std::nullopt,
-        {}};
-  const auto* const found =
-      std::find(std::begin(projection_names), std::end(projection_names), of.part);
-  return {field, static_cast<Projection>(found - std::begin(projection_names)), {}};
-}
 
 std::string time_text(double time) {
   const bool micro = time < 1e-3, milli = time < 1;
@@ -112,7 +60,7 @@ class Picture {
                                   "failure (blue intact, red open, green closed) or a field; left "
                                   "out: failure if springs can break, "
                                   "else displacement")
-        .choices(colourings().names)
+        .choices(colourings())
         .plugin_fields()
         .add<&Options::range>(
             "range", "",
@@ -120,14 +68,14 @@ class Picture {
         .add<&Options::view>("view", "", "direction from the body to the eye; z is up")
         .fallback("[1, -1.4, 0.9]")
         .add<&Options::camera>("camera", "", "whether far things look smaller")
-        .choices(cameras)
+        .choices(projector_names)
         .fallback("\"orthographic\"")
         .add<&Options::fit>(
             "fit", "",
             "what fills the picture: rest: the body at rest, seen from one place in all frames, so "
             "that motion is seen as such; "
             "frame: the body as it is drawn in each frame, however far it has moved")
-        .choices(fits)
+        .choices(fit_names)
         .fallback("\"rest\"")
         .add<&Options::particles>("particles", "", "how a particle is drawn")
         .choices(forms)
@@ -146,9 +94,7 @@ class Picture {
         .check([](const Options& options, const FaultSink& faults) {
           check_file_name(options.file, faults);
           if (options.view == Vec3{}) faults.fault("view", "a direction that is not zero");
-          if (options.range &&
-              !(options.range->size() == 2 && options.range->front() < options.range->back()))
-            faults.fault("range", "two numbers, the smaller first");
+          check_range(options.range, faults);
         });
   }
 
@@ -157,18 +103,10 @@ class Picture {
   void begin(const OutputContext& context) {
     title_ = context.title;
     files_ = FrameFiles(context, options_.file, ".png");
-    const auto whole = context.particles(options_.region);
-    drawn_ = whole_ = Selection(whole);
-    if (options_.cut) {
-      const auto cut = context.particles(*options_.cut);
-      std::vector<Particle> left;
-      std::set_difference(whole.begin(), whole.end(), cut.begin(), cut.end(),
-                          std::back_inserter(left));
-      if (left.empty()) throw std::runtime_error("the cut takes every particle away");
-      drawn_ = Selection(left);
-    }
+    drawn_ = Selection(drawn_particles(context, options_.region, options_.cut));
+    whole_ = Selection(context.particles(options_.region));
     if (!options_.colour_by && !context.fields.empty())
-      options_.colour_by = is_one_of(context.fields, "broken_open") ? failure : "displacement";
+      options_.colour_by = usual_colouring(context.fields);
     if (!options_.colour_by) return;
     if (options_.scale != 0) require_field(context, "displacement");
     if (*options_.colour_by != failure)
@@ -187,9 +125,9 @@ class Picture {
                              ? whole_.positions(snapshot, options_.scale, buffer)
                              : whole_.of(snapshot.positions, 3, buffer);
       const double border = 0.04 * image.width, foot = legend_height(image.width);
-      camera_ = make_camera(
-          shown, snapshot.spacing, options_.view, options_.camera == Projector::perspective,
-          {border, border, image.width - 2 * border, image.height - border - foot});
+      camera_ =
+          make_camera(shown, snapshot.spacing, options_.view, options_.camera,
+                      {border, border, image.width - 2 * border, image.height - border - foot});
     }
     const Colouring colouring =
         *options_.colour_by == failure ? colour_by_failure(snapshot) : colour_by_field(snapshot);
@@ -252,30 +190,25 @@ class Picture {
     std::vector<double> values(drawn_.size());
     for (std::size_t n = 0; n < drawn_.size(); ++n)
       quantity.evaluate(snapshot, field, drawn_[n], &values[n]);
-    double least = infinity, greatest = -infinity;
-    for (const double value : values)
-      if (std::isfinite(value)) {  // a particle may have no value
-        least = std::min(least, value);
-        greatest = std::max(greatest, value);
-      }
-    if (!(least <= greatest)) least = greatest = 0;
-    const double low = options_.range ? options_.range->front() : least,
-                 high = options_.range ? options_.range->back() : greatest;
+    const NumberRange range = options_.range
+                                  ? NumberRange{options_.range->front(), options_.range->back()}
+                                  : range_of(values);
     Colouring colouring;
     for (const double value : values)
-      colouring.colours.push_back(
-          std::isfinite(value) ? viridis(high > low ? (value - low) / (high - low) : 0) : no_value);
+      colouring.colours.push_back(std::isfinite(value) ? viridis(share_of(value, range))
+                                                       : no_value);
     std::string name = quantity.names().front();
     std::replace(name.begin(), name.end(), '_', ' ');
     const FieldInfo* field_info = find_field(quantity.field());
     if (field_info != nullptr && !field_info->unit.empty())
       name += " (" + std::string(field_info->unit) + ")";
-    colouring.meaning = name + " from " + short_number(low) + " to " + short_number(high);
+    colouring.meaning =
+        name + " from " + short_number(range.low) + " to " + short_number(range.high);
     if (!std::all_of(values.begin(), values.end(),
                      [](double value) { return std::isfinite(value); }))
       colouring.meaning += ", grey without a value";
-    colouring.draw_legend = [=](Image& image) {
-      draw_scale(image, short_number(low, 4), short_number(high, 4), name);
+    colouring.draw_legend = [range, name](Image& image) {
+      draw_scale(image, short_number(range.low, 4), short_number(range.high, 4), name);
     };
     return colouring;
   }

@@ -1,8 +1,9 @@
 // Draws particles as cubes or spheres with light and shade.
 #pragma once
 
-#include "camera.hpp"
 #include "image.hpp"
+
+#include <picture/camera.hpp>
 
 #include <cstdint>
 

@@ -116,10 +116,11 @@
   CROSSES(ForcesId, index)                                                                                                                            \
   CROSSES(Section, forces, springs, area)                                                                                                             \
   CROSSES(CrackFace, a, b, spring_class, corners, area, time, damage)                                                                                 \
-  CROSSES(Snapshot, time, step, particles, spacing, positions, self, get_field, get_resultant, get_fragments, get_crack_faces, run_tasks)             \
+  CROSSES(BodyCubes, origin, edge, count, particle)                                                                                                   \
+  CROSSES(Snapshot, time, step, particles, spacing, positions, self, get_field, get_resultant, get_fragments, get_crack_faces, get_cubes, run_tasks)  \
   CROSSES(FrameMark, step, time)                                                                                                                      \
   CROSSES(OutputContext, directory, title, fields, earlier, self, region_particles, announce_file, acted_particles, external_forces, cut_section,     \
-          use_field, get_cut_faces)                                                                                                                   \
+          use_field, get_cut_faces, receive_warning)                                                                                                  \
   CROSSES(WriterFunctions, begin, frame, end, memory)                                                                                                 \
   CROSSES(ColumnSink, self, receive)                                                                                                                  \
   CROSSES(ProbeFunctions, begin, sample)                                                                                                              \

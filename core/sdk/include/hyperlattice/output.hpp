@@ -54,6 +54,17 @@ struct CrackFace {
   double damage = 0;  ///< 1 - integrity: 1 for a broken spring
 };
 
+/// The body at rest as equal cubes of a grid, for pictures; see core/model/body_cubes.hpp.
+struct BodyCubes {
+  /// Marks a cube of the grid that is outside the body.
+  static constexpr std::uint32_t no_particle = ~std::uint32_t{0};
+  Vec3 origin;                 ///< low corner of the cube (0, 0, 0), m
+  double edge = 0;             ///< m
+  std::int32_t count[3] = {};  ///< cubes along each axis
+  /// The particle of each cube, or no_particle; [(k * count[1] + j) * count[0] + i].
+  std::span<const std::uint32_t> particle;
+};
+
 /// The body at one time. Particles are in the order z, y, x. Valid during the call that receives
 /// it.
 struct Snapshot {
@@ -68,6 +79,7 @@ struct Snapshot {
   /// Null, as in a copy of a frame: only the fields are known.
   bool (*get_fragments)(void* self, double damage, Field& numbers) noexcept = nullptr;
   std::span<const CrackFace> (*get_crack_faces)(void* self, double damage) noexcept = nullptr;
+  BodyCubes (*get_cubes)(void* self) noexcept = nullptr;
   /// Calls task(work, n) for each n below `count`; null: the run has one thread for output.
   void (*run_tasks)(void* self, std::uint64_t count, void* work,
                     void (*task)(void* work, std::uint64_t n) noexcept) noexcept = nullptr;
@@ -98,6 +110,13 @@ struct Snapshot {
     return get_crack_faces(self, damage);
   }
 
+  /// Returns the body at rest as cubes, valid during the call that received the snapshot. Throws
+  /// std::runtime_error for a writer that names a field, as crack_faces() does.
+  BodyCubes cubes() const {
+    if (get_cubes == nullptr) refuse_springs();
+    return get_cubes(self);
+  }
+
   /// Returns the resultant of forces at this time. They act at the present places of the particles;
   /// `about`, m, is the point of the moment.
   Resultant resultant(ForcesId forces, Vec3 about) const {
@@ -107,7 +126,8 @@ struct Snapshot {
  private:
   [[noreturn]] static void refuse_springs() {
     throw std::runtime_error(
-        "only probes, and writers that name no field, can ask for fragments and faces of cracks");
+        "only probes, and writers that name no field, can ask for fragments, faces of cracks and "
+        "cubes");
   }
 };
 
@@ -143,6 +163,10 @@ struct OutputContext {
   /// Null: this body's are not known.
   std::span<const CrackFace> (*get_cut_faces)(void* self) noexcept = nullptr;
 
+  /// Receives a sentence for warn(). A writer may call it until its end() returns. Null: nobody
+  /// listens.
+  void (*receive_warning)(void* self, std::string_view sentence) noexcept = nullptr;
+
   /// Returns the particles of the region in ascending order.
   std::span<const Particle> particles(RegionId region) const {
     return region_particles(self, region);
@@ -169,6 +193,11 @@ struct OutputContext {
   /// ends, with the time 0 and the damage 1. Valid during begin().
   std::span<const CrackFace> cut_faces() const {
     return get_cut_faces == nullptr ? std::span<const CrackFace>() : get_cut_faces(self);
+  }
+  /// Tells the user what a writer does not do as the scene asks, and why. The plan tells what
+  /// begin() warns of, the run what frame() and end() warn of.
+  void warn(std::string_view sentence) const {
+    if (receive_warning != nullptr) receive_warning(self, sentence);
   }
   /// Announces a file. Throws std::runtime_error if the file must not be touched.
   void announce(std::string_view name, bool rewritten = false) const {

@@ -16,6 +16,7 @@ class Hyperlattice(CMakePackage):
 
     variant("mpi", default=True, description="Several processes for one run")
     variant("python", default=True, description="The Python package")
+    variant("render", default=False, description="Pictures for papers, writers.render")
 
     depends_on("cmake@3.25:", type="build")
     depends_on("ninja", type="build")
@@ -31,6 +32,9 @@ class Hyperlattice(CMakePackage):
     depends_on("libpng")
     depends_on("muparser")
     depends_on("mpi", when="+mpi")
+    depends_on("embree@3", when="+render")
+    depends_on("cairo+pdf+png", when="+render")
+    depends_on("pkgconfig", when="+render", type="build")
     depends_on("python@3.9:", when="+python", type=("build", "link", "run"))
     depends_on("py-pybind11", when="+python", type="build")
     depends_on("py-numpy", when="+python", type=("build", "run"))
@@ -43,4 +47,5 @@ class Hyperlattice(CMakePackage):
             self.define("CMAKE_UNITY_BUILD", True),
             self.define("CMAKE_DISABLE_FIND_PACKAGE_MPI", self.spec.satisfies("~mpi")),
             self.define("CMAKE_DISABLE_FIND_PACKAGE_pybind11", self.spec.satisfies("~python")),
+            self.define("CMAKE_DISABLE_FIND_PACKAGE_embree", self.spec.satisfies("~render")),
         ]

@@ -8,9 +8,17 @@
 #include <hyperlattice/plain.hpp>
 
 #include <algorithm>
+#include <cstdint>
 #include <span>
+#include <string_view>
 
 namespace hyperlattice::picture {
+
+enum class Projector : std::uint32_t { orthographic, perspective };
+inline constexpr std::string_view projector_names[] = {"orthographic", "perspective"};
+/// What a camera shows in each frame: the body at rest, or the body as it is drawn.
+enum class Fit : std::uint32_t { rest, frame };
+inline constexpr std::string_view fit_names[] = {"rest", "frame"};
 
 struct Camera {
   Vec3 right, up, forward, target;
@@ -30,14 +38,24 @@ struct Frame {
   double left = 0, top = 0, width = 0, height = 0;
 };
 
-/// Returns a camera that looks from the direction `view` and shows in the frame all cubes of the
-/// given edge, m, about the points, [x y z] each, m.
-inline Camera make_camera(std::span<const double> points, double edge, Vec3 view, bool perspective,
-                          Frame frame) {
+/// Returns a direction to the right for a camera that looks along `forward`, so that `up`, of
+/// length 1 as `forward`, points up in the picture. A camera that looks along `up` has x on its
+/// right, or y if it looks along x.
+inline Vec3 right_of(Vec3 forward, Vec3 up) {
+  const Vec3 sideways = cross(forward, up);
+  if (norm(sideways) > 1e-6) return sideways / norm(sideways);
+  const Vec3 axis = std::abs(forward.x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+  const Vec3 across = axis - dot(axis, forward) * forward;
+  return across / norm(across);
+}
+
+/// Returns a camera that looks from the direction `view`, with `up` towards the upper edge, and
+/// shows in the frame all cubes of the given edge, m, about the points, [x y z] each, m.
+inline Camera make_camera(std::span<const double> points, double edge, Vec3 view,
+                          Projector projector, Frame frame, Vec3 up = {0, 0, 1}) {
   Camera camera;
   camera.forward = (-1 / norm(scaled(view))) * scaled(view);
-  const Vec3 sideways = cross(camera.forward, {0, 0, 1});  // z is up, or y for a view along z
-  camera.right = norm(sideways) > 1e-6 ? sideways / norm(sideways) : Vec3{1, 0, 0};
+  camera.right = right_of(camera.forward, up);
   camera.up = cross(camera.right, camera.forward);
 
   Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
@@ -55,10 +73,10 @@ inline Camera make_camera(std::span<const double> points, double edge, Vec3 view
       high - low + Vec3{seen_edge(camera.right), seen_edge(camera.up), seen_edge(camera.forward)};
   camera.target = centre.x * camera.right + centre.y * camera.up + centre.z * camera.forward;
   const double distance = 2.5 * norm(size);  // from the eye to the target, m
-  const double nearer =
-      perspective ? 1 / (1 - 0.5 * size.z / distance) : 1;  // magnification of the front
+  const double nearer = projector == Projector::perspective ? 1 / (1 - 0.5 * size.z / distance)
+                                                            : 1;  // magnification of the front
   camera.scale = std::min(frame.width / size.x, frame.height / size.y) / nearer;
-  camera.k = perspective ? 1 / (camera.scale * distance) : 0;
+  camera.k = projector == Projector::perspective ? 1 / (camera.scale * distance) : 0;
   camera.x = frame.left + 0.5 * frame.width;
   camera.y = frame.top + 0.5 * frame.height;
   return camera;
