@@ -79,6 +79,7 @@ struct PluginPathArgument {
 struct SceneArguments {
   std::filesystem::path scene;
   std::vector<std::string> settings;
+  std::filesystem::path from;  ///< folder of the run at whose end the run starts; empty: none
   ThreadArgument threads;
 
   void declare(CLI::App& command);
