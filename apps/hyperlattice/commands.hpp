@@ -24,6 +24,7 @@ struct Command {
 
 Command run_command(CLI::App& program);
 Command plan_command(CLI::App& program);
+Command watch_command(CLI::App& program);
 Command plugins_command(CLI::App& program);
 Command schema_command(CLI::App& program);
 Command analyze_command(CLI::App& program);
