@@ -24,6 +24,7 @@ struct Command {
 
 Command run_command(CLI::App& program);
 Command plan_command(CLI::App& program);
+Command watch_command(CLI::App& program);
 Command plugins_command(CLI::App& program);
 Command schema_command(CLI::App& program);
 Command analyze_command(CLI::App& program);
@@ -79,6 +80,7 @@ struct PluginPathArgument {
 struct SceneArguments {
   std::filesystem::path scene;
   std::vector<std::string> settings;
+  std::filesystem::path from;  ///< folder of the run at whose end the run starts; empty: none
   ThreadArgument threads;
 
   void declare(CLI::App& command);

@@ -95,11 +95,11 @@ int obey(int count, char** words) {
   program.add_flag(
       "--no-plugins", no_plugins,
       "refuse scenes that name \"plugins\", whose code would run: for scenes from elsewhere");
-  const Command commands[] = {run_command(program),        plan_command(program),
-                              plugins_command(program),    schema_command(program),
-                              analyze_command(program),    calibrate_command(program),
-                              study_command(program),      report_command(program),
-                              completion_command(program), manual_command(program)};
+  const Command commands[] = {
+      run_command(program),        plan_command(program),   watch_command(program),
+      plugins_command(program),    schema_command(program), analyze_command(program),
+      calibrate_command(program),  study_command(program),  report_command(program),
+      completion_command(program), manual_command(program)};
   for (const Command& command : commands) refuse_odd_values(*command.arguments);
   try {
     program.parse(count, words);

@@ -7,6 +7,7 @@
 #include <plan/calibration.hpp>
 #include <plan/shortage.hpp>
 #include <plan/thread_choice.hpp>
+#include <run/final_state.hpp>
 #include <scene/json.hpp>
 
 #include <nlohmann/json.hpp>
@@ -51,12 +52,20 @@ void SceneArguments::declare(CLI::App& command) {
           "--set /pipeline/1/poisson=0.23, --set solvers.explicit/end_time=2us; may be repeated")
       ->type_name("/POINTER=VALUE|NAME/OPTION=VALUE")
       ->allow_extra_args(false);
+  command
+      .add_option("--from", from,
+                  "start from the end of the run in this folder, which --keep-state kept: the same "
+                  "body under the loads, solvers and outputs of this scene")
+      ->type_name("DIR");
   threads.declare(command);
 }
 
 std::unique_ptr<Plan> SceneArguments::plan(Host& host, int ranks, int node_ranks) const {
   const ElapsedTime elapsed_time;
-  return make_plan(read_scene(scene, settings, host), threads.count(node_ranks), ranks);
+  auto read = read_scene(scene, settings, host);
+  std::optional<StartState> start;
+  if (!from.empty()) start = read_start(from);
+  return make_plan(std::move(read), threads.count(node_ranks), ranks, std::move(start));
 }
 
 Command plan_command(CLI::App& program) {

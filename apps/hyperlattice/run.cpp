@@ -34,6 +34,9 @@ Command run_command(CLI::App& program) {
   command->add_flag(
       "--resume", arguments->options.resume,
       "go on with a run that was interrupted or cut off, from the checkpoint in its folder");
+  command->add_flag("--keep-state", arguments->options.keep_state,
+                    "keep the final state in the folder (state.bin), so that --from can start "
+                    "another run there");
   command->add_flag(
       "--overwrite", arguments->options.overwrite,
       "give up an interrupted run in the folder, and replace files there that no run's list names");

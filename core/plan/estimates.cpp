@@ -82,8 +82,9 @@ double particles_of(const Plan& plan) { return static_cast<double>(plan.model->b
 double allocated_bytes(const Model& model) { return program_bytes + model_bytes(model); }
 
 double frames_of(const Plan& plan, const Stage& output) {
-  const double every = output_interval(output, plan.end_time()),
-               intervals = every > 0 ? plan.end_time() / every : 0;
+  const double duration = plan.end_time() - plan.start_time(),
+               every = output_interval(output, duration),
+               intervals = every > 0 ? duration / every : 0;
   constexpr double nearly = 1e-6;  // of an interval
   double frames = std::floor(intervals + nearly) + (output.cadence.first ? 1 : 0);
   // Each state of rest is shown, whatever its time.

@@ -11,11 +11,13 @@ struct Plan;
 inline constexpr const char* checkpoint_file = "checkpoint.bin";
 inline constexpr const char* earlier_checkpoint_file =
     "checkpoint.previous.bin";  ///< the one before
+inline constexpr const char* state_file = "state.bin";
 
 inline constexpr std::string_view run_file_names[] = {
-    "summary.json",          "scene.resolved.json", "history.csv", "failures.csv",
-    "failing_motion.csv",    "files.csv",           "probes",      checkpoint_file,
-    earlier_checkpoint_file, "report.html"};
+    "summary.json", "scene.resolved.json", "history.csv",
+    "failures.csv", "failing_motion.csv",  "files.csv",
+    "probes",       checkpoint_file,       earlier_checkpoint_file,
+    state_file,     "report.html"};
 
 /// The names of a writer's or probe's files, in a folder inside the run's ("": the run's folder).
 struct OutputName {

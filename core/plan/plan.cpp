@@ -49,7 +49,7 @@ void check_plan(const Stage& stage, const PlannedStage& planned) {
 
 /// Plans the stages. Each one starts at the time at which the one before ends.
 void plan_stages(Plan& plan, Faults& faults) {
-  double start = 0;
+  double start = plan.start_time();
   for (const Stage* stage : plan.scene->of(Family::solvers)) {
     PlannedStage planned;
     planned.stage = stage;
@@ -89,11 +89,13 @@ std::uint64_t Plan::steps() const {
   return steps;
 }
 
-double Plan::end_time() const { return stages.empty() ? 0 : stages.back().plan.end_time; }
+double Plan::end_time() const {
+  return stages.empty() ? start_time() : stages.back().plan.end_time;
+}
 
-double output_interval(const Stage& output, double end_time) {
+double output_interval(const Stage& output, double duration) {
   constexpr double frames = 20, samples = 200;
-  return output.cadence.every.value_or(end_time /
+  return output.cadence.every.value_or(duration /
                                        (output.family() == Family::writers ? frames : samples));
 }
 
@@ -126,6 +128,8 @@ namespace {
 /// Plans all but the scene and the ranks.
 void fill(Plan& plan, Threads threads) {
   plan.identity = identity_of(*plan.scene);
+  if (plan.start)
+    plan.identity.push_back({Dependence::Kind::file, "--from", plan.start->file, plan.start->hash});
   try {
     plan.model = build_model(*plan.scene);
   } catch (const std::bad_alloc&) {
@@ -145,6 +149,13 @@ void fill(Plan& plan, Threads threads) {
     if (std::string warning = coordination_warning(plan.model->body); !warning.empty())
       warnings.push_back(std::move(warning));
   Faults faults;
+  if (plan.start) {
+    check_start(*plan.start, *plan.model, faults);
+    if (!plan.model->loads.start_velocities.empty())
+      warnings.push_back(
+          "the velocities that loads give the body at the start have no effect: the run starts "
+          "from a state with velocities of its own");
+  }
   plan.asked_fields = asked_fields(*plan.scene);
   plan_stages(plan, faults);
   check_fields(*plan.model, faults);
@@ -161,11 +172,13 @@ void fill(Plan& plan, Threads threads) {
 
 }  // namespace
 
-std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, Threads threads, int ranks) {
+std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, Threads threads, int ranks,
+                                std::optional<StartState> start_state) {
   const auto start = std::chrono::steady_clock::now();
   auto plan = std::make_unique<Plan>();
   plan->scene = std::move(scene);
   plan->ranks = ranks;
+  plan->start = std::move(start_state);
   try {
     fill(*plan, threads);
   } catch (const InputError& error) {

@@ -6,6 +6,7 @@
 #include <model/mass_scaling.hpp>
 #include <plan/fields.hpp>
 #include <plan/identity.hpp>
+#include <plan/start_state.hpp>
 #include <plan/threads.hpp>
 #include <ranks/ranks.hpp>
 
@@ -65,15 +66,21 @@ struct Plan {
   double setup_seconds = 0;       ///< spent on building the model
   double expected_seconds = 0;    ///< estimated from the kernel's cost on a common machine
   std::vector<LeftOut> left_out;
-  AskedFields used_fields;  ///< of each writer: fields that it names in begin()
+  AskedFields used_fields;          ///< of each writer: fields that it names in begin()
+  std::optional<StartState> start;  ///< none: the run starts from the body at rest
 
   std::uint64_t steps() const;
   double end_time() const;
+  double start_time() const { return start ? start->time : 0; }
+  /// Returns the number of steps that the state at the start has behind it.
+  std::uint64_t first_step() const { return start ? start->steps : 0; }
 };
 
 /// Validates everything and writes nothing. Throws as read_scene and build_model do, and InputError
-/// if a solver refuses its time step. `threads`: of each rank.
-std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, Threads threads, int ranks = 1);
+/// if a solver refuses its time step, or if `start` is the state of another body. `threads`: of
+/// each rank.
+std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, Threads threads, int ranks = 1,
+                                std::optional<StartState> start = {});
 
 /// Sets another number of threads of each rank, with a block of the state for each thread, and
 /// repeats the estimates that depend on it.
@@ -81,9 +88,9 @@ void set_threads(Plan& plan, int threads);
 /// Sets the number of blocks of a run that is resumed, and as many threads as they need.
 void set_blocks(Plan& plan, int blocks);
 
-/// Returns the seconds between the outputs of a writer or probe in a run of `end_time` seconds. By
+/// Returns the seconds between the outputs of a writer or probe in a run of `duration` seconds. By
 /// default a run has 20 frames of a writer and 200 samples of a probe.
-double output_interval(const Stage& output, double end_time);
+double output_interval(const Stage& output, double duration);
 
 /// Returns the seconds between the records of a stage's history; by default a stage has at most 200
 /// records.

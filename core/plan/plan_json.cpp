@@ -140,6 +140,11 @@ nlohmann::json common_facts(const Plan& plan) {
 
 nlohmann::json plan_json(const Plan& plan) {
   nlohmann::json facts = common_facts(plan);
+  if (plan.start)
+    facts["start"] = {{"file", plan.start->file.string()},
+                      {"hash", plan.start->hash},
+                      {"time", plan.start->time},
+                      {"step", plan.start->steps}};
   if (!plan.model->cohesive.empty()) facts["damage"] = damage_json(*plan.model);
   if (!plan.model->body.is_listed()) return facts;
   const Coordination springs = coordination_of(plan.model->body);

@@ -120,6 +120,9 @@ std::string plan_text(const Plan& plan) {
       for (const auto& [name, value] : damage_lines(entry)) page.line(name, value);
   page.line("critical time step",
             fmt::format("{:.6g} s: {}", number("critical_time_step"), word("critical_because")));
+  if (plan.start)
+    page.line("start", fmt::format("the state at {:.6g} s, step {}, of {}", plan.start->time,
+                                   count_text(plan.start->steps), plan.start->file.string()));
   for (const PlannedStage& stage : plan.stages) {
     page.line(stage.stage->component->type(), stage_text(stage));
     if (stage.mass_scaling)

@@ -2,6 +2,7 @@
 #include <base/errors.hpp>
 #include <base/folder_file.hpp>
 #include <run/checkpoint.hpp>
+#include <run/final_state.hpp>
 #include <run/records.hpp>
 
 #include <hyperlattice/files.hpp>
@@ -95,14 +96,17 @@ Checkpoint find_checkpoint(const Plan& plan, const fs::path& directory) {
   Checkpoint found = newest(directory);
   if (const std::string changed = changes(found.head.identity, plan.identity); !changed.empty())
     throw InputError({{"--resume", found.file.string(),
-                       "a checkpoint of this scene and of all that it uses, but " + changed}});
+                       "a checkpoint of this scene and of all that it uses, but " + changed +
+                           ". A scene with a later end or other loads goes on from the end of a "
+                           "run that --keep-state kept: see --from"}});
   return found;
 }
 
 void must_be_resumable(const fs::path& directory) {
   if (!is_there(directory / checkpoint_file) && !is_there(directory / earlier_checkpoint_file))
-    throw InputError({{"--resume", (directory / checkpoint_file).string(),
-                       "the checkpoint of a run that was cut off; there is none"}});
+    throw InputError(
+        {{"--resume", (directory / checkpoint_file).string(),
+          "the checkpoint of a run that was cut off; there is none" + about_done_run(directory)}});
   if (!is_there(directory / own_files_list))
     throw InputError({{"--resume", (directory / own_files_list).string(),
                        "the list of the run's files; it was removed"}});

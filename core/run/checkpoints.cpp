@@ -11,7 +11,7 @@ void Checkpoints::save(std::uint64_t steps, double time) {
   if (!ranks_.is_first()) return;
   stopwatch_.lap();  // a run that continues from here counts this part too
   stopwatch_.output([&] {
-    CheckpointHead head = checkpoint_head(plan_, steps == 0);
+    CheckpointHead head = checkpoint_head(plan_, steps == plan_.first_step());
     head.step = steps;
     head.time = time;
     if (!head.at_start)

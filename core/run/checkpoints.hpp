@@ -26,7 +26,7 @@ class Checkpoints {
         gather_(std::move(gather)),
         state_(std::move(state)) {}
 
-  /// Saves the state after this number of steps of the run, at `time`, s; before the first step
+  /// Saves the state after this number of steps, at `time`, s; before the first step of the run
   /// nothing but the head.
   void save(std::uint64_t steps, double time);
   /// Saves the state if the last checkpoint is old. `stage_steps`: steps of the present stage;

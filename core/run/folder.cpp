@@ -2,6 +2,7 @@
 #include <plan/file_names.hpp>
 #include <run/checkpoint.hpp>
 #include <run/failing_motion.hpp>
+#include <run/final_state.hpp>
 #include <run/folder.hpp>
 #include <run/occupancy.hpp>
 
@@ -40,13 +41,6 @@ bool is_real(const fs::path& directory, const std::string& name, struct stat& st
 
 bool is_later(const timespec& a, const timespec& b) {
   return a.tv_sec != b.tv_sec ? a.tv_sec > b.tv_sec : a.tv_nsec > b.tv_nsec;
-}
-
-/// Returns whether the summary in a folder says that its run is done.
-bool is_done(const fs::path& directory) {
-  const auto file = read_folder_file(directory, "summary.json", largest_json);
-  const auto summary = nlohmann::json::parse(file ? file->text : "", nullptr, false);
-  return summary.is_object() && summary.contains("status") && summary["status"] == "done";
 }
 
 /// Returns whether this is the name of a temporary file of AtomicFile: "<name>.<16 hexadecimal

@@ -15,8 +15,8 @@
 
 namespace hyperlattice {
 
-Outputs::Outputs(const Model& model, Simulation& simulation, RunFolder& folder, double end_time,
-                 int threads, Ranks& ranks)
+Outputs::Outputs(const Model& model, Simulation& simulation, RunFolder& folder, double start_time,
+                 double end_time, int threads, Ranks& ranks)
     : model_(model),
       simulation_(simulation),
       source_(model, simulation),
@@ -31,7 +31,8 @@ Outputs::Outputs(const Model& model, Simulation& simulation, RunFolder& folder, 
       Output& output = outputs_.emplace_back();
       output.owner = this;
       output.stage = stage;
-      output.schedule = Schedule(0, output_interval(*stage, end_time), stage->cadence.first);
+      output.schedule = Schedule(start_time, output_interval(*stage, end_time - start_time),
+                                 stage->cadence.first);
     }
 }
 

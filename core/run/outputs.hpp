@@ -18,11 +18,12 @@ namespace hyperlattice {
 /// frame.
 class Outputs {
  public:
-  /// `end_time`, s, is the run's and sets the interval of outputs that have none. With more than
+  /// `start_time` and `end_time`, s, are the run's; the time between them sets the interval of
+  /// outputs that have none. With more than
   /// one of `threads`, frames are written by as many threads besides those of the simulation.
   /// Only the first of `ranks` has the components; the others keep its schedule.
-  Outputs(const Model& model, Simulation& simulation, RunFolder& folder, double end_time,
-          int threads, Ranks& ranks);
+  Outputs(const Model& model, Simulation& simulation, RunFolder& folder, double start_time,
+          double end_time, int threads, Ranks& ranks);
   void archive(Archive& archive);
   /// Makes and begins every writer and probe, or continues them.
   void begin();

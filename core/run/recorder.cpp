@@ -12,8 +12,10 @@ Recorder::Recorder(const Plan& plan, Simulation& simulation, RunFolder& folder,
       guard_(*plan.model, simulation),
       cells_(*plan.model),
       history_(folder, *plan.model),
-      outputs_(*plan.model, simulation, folder, plan.end_time(), plan.threads, ranks),
-      planned_steps_(plan.steps()) {
+      outputs_(*plan.model, simulation, folder, plan.start_time(), plan.end_time(), plan.threads,
+               ranks),
+      planned_steps_(plan.steps()),
+      first_step_(plan.first_step()) {
   if (plan.model->springs.breakable || plan.model->springs.softens) failures_.emplace(folder);
 }
 
@@ -72,8 +74,8 @@ void Recorder::observe() {
   // In a static stage times are rarely round numbers: the times of outputs have a tolerance.
   const double near_enough = 1e-6 * (stage_->plan.end_time - stage_->start_time);
   stopwatch_.output([&] { outputs_.show(at_rest ? near_enough : time_step_); });
-  progress_->update(simulation_.steps(), simulation_.time(), time_step_, simulation_.broken(),
-                    at_rest && rest_ ? rest_->residual : -1);
+  progress_->update(simulation_.steps() - first_step_, simulation_.time(), time_step_,
+                    simulation_.broken(), at_rest && rest_ ? rest_->residual : -1);
 }
 
 void Recorder::observe_once() {

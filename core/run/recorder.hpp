@@ -65,7 +65,7 @@ class Recorder {
   std::optional<FailureLog> failures_;
   Outputs outputs_;
   std::unique_ptr<Progress> progress_;
-  std::uint64_t planned_steps_;
+  std::uint64_t planned_steps_, first_step_;
 
   const PlannedStage* stage_ = nullptr;
   Schedule schedule_;               ///< of the records in this stage

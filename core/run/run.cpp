@@ -2,6 +2,7 @@
 #include <base/descriptor.hpp>
 #include <plan/shortage.hpp>
 #include <process/lack_of_memory.hpp>
+#include <run/final_state.hpp>
 #include <run/interrupt.hpp>
 #include <run/observer.hpp>
 #include <run/run.hpp>
@@ -52,8 +53,11 @@ std::vector<std::filesystem::path> inputs_of(const Plan& plan) {
 /// `resumed`, which is cleared if it holds no step.
 void prepare(RunFolder& folder, Plan& plan, const RunOptions& options, Ranks& ranks,
              std::optional<Checkpoint>& resumed, std::unique_ptr<Simulation>& simulation) {
-  if (resumed && resumed->head.blocks != plan.blocks) {
-    set_blocks(plan, resumed->head.blocks);
+  const std::int32_t blocks = resumed      ? resumed->head.blocks
+                              : plan.start ? plan.start->blocks
+                                           : plan.blocks;
+  if (blocks != plan.blocks) {
+    set_blocks(plan, blocks);
     spdlog::info("the run goes on with {} threads{}, as it began", plan.threads,
                  plan.ranks == 1 ? "" : " in each rank");
   }
@@ -146,6 +150,8 @@ void solve(const Plan& plan, const RunOptions& options, RunFolder& folder,
     folder.check_tables();
     if (ranks.agreed(Wish::stop) && may_be_short(plan, simulation->time()))
       outcome.end("interrupted", exit_interrupted, "asked to stop by a signal");
+    else if (options.keep_state)
+      write_final_state(plan, *simulation, folder, ranks);
   });
   if (stages) {
     attempt(plan, ranks, outcome, [&] { stages->drain(); });  // a run that fails keeps its frames

@@ -20,6 +20,7 @@ struct RunOptions {
   bool overwrite = false;
   /// Seconds between checkpoints; 0: only where the run is interrupted.
   double checkpoint_every = 600;
+  bool keep_state = false;          ///< leaves the final state, from which other runs can start
   RunObserver* observer = nullptr;  ///< null: none (observer.hpp)
 };
 

@@ -1,6 +1,7 @@
 #include <base/errors.hpp>
 #include <plan/precision.hpp>
 #include <run/failing_motion.hpp>
+#include <run/final_state.hpp>
 #include <run/interrupt.hpp>
 #include <run/observer.hpp>
 #include <run/stage_sequence.hpp>
@@ -40,7 +41,10 @@ void StageSequence::archive(Archive& archive) {
 }
 
 void StageSequence::begin(const std::optional<Checkpoint>& resumed) {
-  if (resumed) read_checkpoint(*resumed, [this](Archive& state) { archive(state); });
+  if (resumed)
+    read_checkpoint(*resumed, [this](Archive& state) { archive(state); });
+  else if (plan_.start)
+    start_from(*plan_.start, *plan_.model, simulation_, ranks_);
   recorder_.begin(options_.quiet || !ranks_.is_first());
 }
 
@@ -130,7 +134,7 @@ void StageSequence::write_motion(const std::vector<double>& motion,
 void StageSequence::note(Outcome& outcome) {
   outcome.solve_seconds = stopwatch_.solve_seconds();
   outcome.output_seconds = stopwatch_.output_seconds();
-  outcome.steps = simulation_.steps();
+  outcome.steps = simulation_.steps() - plan_.first_step();
   outcome.time = simulation_.time();
   outcome.injected_by_load = simulation_.injected_by_load();
   outcome.state_hash = simulation_.hash();

@@ -44,7 +44,7 @@ void visit_results(Archive& archive, Block& block) {
   archive(block.contributions);
 }
 
-void visit(Archive& archive, Block& block, int components) {
+void visit_body(Archive& archive, Block& block, int components) {
   for (int c = 0; c < components; ++c) {
     archive(block.displacement[c].bytes());
     archive(block.velocity[c].bytes());
@@ -55,6 +55,10 @@ void visit(Archive& archive, Block& block, int components) {
   visit(archive, block.listed.neighbour);
   archive(block.damped_work);
   archive(block.fracture_work);
+}
+
+void visit(Archive& archive, Block& block, int components) {
+  visit_body(archive, block, components);
   archive(block.boundary_particles);
   archive(block.contributions);
 }
@@ -302,6 +306,19 @@ void BlockSet::archive(Archive& archive) {
   if (archive.restores()) whole_ = Whole::everywhere;
   archive.same(blocks_.size(), "the number of blocks");
   for (Block& block : blocks_) visit_all(archive, block);
+}
+
+void BlockSet::archive_body(Archive& archive) {
+  if (archive.restores()) whole_ = Whole::everywhere;
+  archive.same(blocks_.size(), "the number of blocks");
+  for (Block& block : blocks_) {
+    if (archive.restores()) fill(block);
+    archive.same(block.layout->sites, "the size of its blocks");
+    archive.same(block.rows.size(), "the rows of its blocks");
+    archive.same(block.memory.size(), "the memory of its laws");
+    archive.same(block.fracture_work.size(), "the laws that soften");
+    visit_body(archive, block, model_.degrees_of_freedom);
+  }
 }
 
 }  // namespace hyperlattice

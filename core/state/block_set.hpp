@@ -117,6 +117,8 @@ class BlockSet {
   /// Saves or restores the blocks as they are, so that a run continues with the same number of
   /// blocks.
   void archive(Archive& archive);
+  /// Saves or restores the blocks without what loads do in them.
+  void archive_body(Archive& archive);
 
  private:
   /// Where all blocks are up to date.

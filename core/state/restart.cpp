@@ -15,4 +15,16 @@ void Simulation::archive(Archive& archive) {
   if (!state_->damage.empty()) state_->damage.archive(archive);
 }
 
+void Simulation::archive_body(Archive& archive) {
+  if (!archive.restores()) gather_in_first();
+  state_->blocks.archive_body(archive);
+  state_->added.archive(archive);
+  state_->sweeps.archive(archive);
+  state_->clock.archive(archive);
+  state_->failures.archive(archive);
+  state_->energy.archive(archive);
+  if (archive.restores()) state_->energy.forget_start();
+  if (!state_->damage.empty()) state_->damage.archive(archive);
+}
+
 }  // namespace hyperlattice

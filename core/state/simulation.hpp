@@ -189,6 +189,11 @@ class Simulation {
   /// Saves or restores the whole state. A simulation of the same model and number of threads
   /// continues with the same bits.
   void archive(Archive& archive);
+  /// Saves or restores the state of the body without its loads, as the start of a run under other
+  /// loads: their work and memory begin anew, and so does the energy balance. Time, number of steps
+  /// and dissipated energies go on. A simulation of the same body, laws and number of blocks reads
+  /// it. Throws std::runtime_error if the body is another one.
+  void archive_body(Archive& archive);
 
  private:
   struct State;

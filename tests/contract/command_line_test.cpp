@@ -56,8 +56,8 @@ TEST_F(CommandLine, WhatCannotBeUnderstoodIsExit2) {
 }
 
 TEST_F(CommandLine, HelpAndVersionAreExit0) {
-  for (const char* command : {"run", "plan", "plugins", "schema", "analyze", "calibrate", "study",
-                              "report", "completion", "manual"})
+  for (const char* command : {"run", "plan", "watch", "plugins", "schema", "analyze", "calibrate",
+                              "study", "report", "completion", "manual"})
     EXPECT_EQ(run({command, "--help"}).exit_code, 0) << command;
   EXPECT_EQ(run({"--help"}).exit_code, 0);
   EXPECT_EQ(run({"--version"}).exit_code, 0);

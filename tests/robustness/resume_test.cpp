@@ -1,7 +1,7 @@
 // Runs that are cut off repeatedly, at any step, and resumed. They leave the same files, byte for
 // byte, as a run that was never cut off.
 #include <base/own_files.hpp>
-#include <support/program.hpp>
+#include <support/state_scenes.hpp>
 
 #include <gtest/gtest.h>
 
@@ -11,109 +11,6 @@ namespace hyperlattice::test {
 namespace resume_test {
 
 using nlohmann::json;
-
-/// Indices of stages in the scenes below.
-constexpr std::size_t lattice = 0, material = 1;
-
-json pulled_block() {
-  return json::parse(R"({ "format": "hyperlattice/1", "pipeline": [
-    { "type": "lattices.cubic", "spacing": 1e-3, "shape": { "box": { "low": [0, 0, 0], "high": [0.012, 0.012, 0.02] } } },
-    { "type": "materials.elastic", "young": "10 GPa", "poisson": 0.1, "density": 2500, "membrane": "I-m",
-      "failure": { "type": "failures.elongation", "limit": "2e-3 mm" } },
-    { "type": "loads.fixed", "on": "z_min" }, { "type": "loads.velocity", "on": "z_max", "value": [0, 0, 1], "rise": "10 us" },
-    { "type": "loads.drag", "density": 1000 },
-    { "type": "solvers.explicit", "end_time": "1 ms" },
-    { "type": "writers.vtu", "every": "100 us" }, { "type": "writers.csv", "every": "300 us", "name": "tables" },
-    { "type": "writers.picture", "every": "400 us", "width": 320, "height": 320 },
-    { "type": "probes.point", "name": "top", "position": [0.006, 0.006, 0.02] }, { "type": "probes.line", "name": "axis", "start": [0.006, 0.006, 0],
-      "end": [0.006, 0.006, 0.02], "points": 5, "every": "200 us" } ] })");
-}
-
-/// Steps of their own length, with numerical damping, in which springs break.
-void make_implicit(json& scene) {
-  json& pipeline = scene["pipeline"];
-  pipeline.erase(4);
-  pipeline[lattice]["shape"]["box"]["high"] = {0.006, 0.006, 0.01};
-  for (json& stage : pipeline)
-    if (stage["type"] == "probes.point") stage["position"] = {0.003, 0.003, 0.01};
-  pipeline[4] = {
-      {"type", "solvers.implicit"}, {"end_time", "60 us"}, {"tolerance", 1e-5}, {"damping", 0.05}};
-}
-
-struct Case {
-  const char* name;
-  void (*change)(json& scene);
-};
-void PrintTo(const Case& scene, std::ostream* out) { *out << scene.name; }
-const Case cases[] = {
-    {"breakable", [](json&) {}},
-    {"floats", [](json& scene) { scene["precision"] = "float"; }},
-    {"plastic",
-     [](json& scene) {
-       scene["pipeline"][material] = {{"type", "materials.plastic"},
-                                      {"young", "10 GPa"},
-                                      {"density", 2500},
-                                      {"membrane", "none"},
-                                      {"yield", "5 MPa"}};
-     }},
-    {"friction",
-     [](json& scene) {
-       scene["pipeline"][lattice]["cuts"] = {
-           {{"plane", {{"point", {0, 0, 0.0105}}, {"normal", {0.2, 0.1, 1}}}}}};
-       scene["pipeline"][material] = {{"type", "materials.elastic"},
-                                      {"young", "10 GPa"},
-                                      {"poisson", 0.25},
-                                      {"density", 2500},
-                                      {"membrane", "none"}};
-       scene["pipeline"][3]["value"] = {0.3, 0, -0.3};
-       scene["pipeline"][4] = {{"type", "loads.friction"}, {"angle", "10 degrees"}};
-       scene["pipeline"][5]["end_time"] = "0.5 ms";
-     }},
-    {"section",  // of more than 1024 springs, some of which are gone when the run goes on
-     [](json& scene) {
-       scene["pipeline"][lattice]["shape"]["box"]["high"] = {0.018, 0.018, 0.02};
-       for (json& stage : scene["pipeline"])
-         if (stage["type"] == "solvers.explicit") stage["end_time"] = "0.6 ms";
-       scene["pipeline"].push_back({{"type", "probes.section"},
-                                    {"point", {0, 0, 0.0192}},
-                                    {"normal", {0.05, 0.02, 1}},
-                                    {"every", "10 us"}});
-     }},
-    {"listed",
-     [](json& scene) {
-       scene["pipeline"].erase(4);  // the drag needs a surface with more springs
-       scene["pipeline"][lattice]["type"] = "lattices.random";
-       scene["pipeline"][material]["membrane"] = "I";
-     }},
-    {"remembered_damage",
-     [](json& scene) {
-       scene["pipeline"][material]["failure"] = {
-           {{"type", "failures.strain"}, {"limit", 0.01}},
-           {{"type", "failures.tuler_butcher"}, {"threshold", 5e-4}, {"impulse", 1e-11}}};
-       scene["pipeline"][5]["end_time"] = "0.3 ms";  // springs are asked at every step
-     }},
-    {"added_mass",
-     [](json& scene) {
-       scene["pipeline"][material].update({{"membrane", "none"}, {"poisson", 0.25}});
-       scene["pipeline"][5]["mass_scaling"] = "1 us";
-     }},
-    {"after_rest",
-     [](json& scene) {
-       json& pipeline = scene["pipeline"];
-       pipeline.erase(4);  // static solvers do not support the drag
-       pipeline[3] = {
-           {"type", "loads.force"}, {"on", "z_max"}, {"total", {5, 0, 200}}, {"rise", "10 us"}};
-       pipeline.insert(pipeline.begin() + 4, json{{"type", "solvers.static"}});
-       pipeline[5]["damping"] = 0.1;
-     }},
-    {"implicit", [](json& scene) { make_implicit(scene); }},
-    {"implicit_list",  // with multigrid, whose levels are made anew where the run goes on
-     [](json& scene) {
-       scene["pipeline"][lattice]["type"] = "lattices.random";
-       make_implicit(scene);
-       scene["pipeline"][4]["preconditioner"] = "multigrid";
-     }},
-};
 
 /// All files of a run, without its times.
 std::map<std::string, std::string> left_behind(const std::string& folder) {
@@ -134,7 +31,7 @@ std::map<std::string, std::string> left_behind(const std::string& folder) {
   return files;
 }
 
-class Resume : public testing::TestWithParam<Case> {
+class Resume : public testing::TestWithParam<StateCase> {
  protected:
   Resume() { GetParam().change(scene); }
   Result run(const std::string& out, std::vector<std::string> more = {},
@@ -189,7 +86,7 @@ class Resume : public testing::TestWithParam<Case> {
   json scene = pulled_block();
   std::string file, whole = folder.file("whole");
 };
-INSTANTIATE_TEST_SUITE_P(Scenes, Resume, testing::ValuesIn(cases),
+INSTANTIATE_TEST_SUITE_P(Scenes, Resume, testing::ValuesIn(state_cases),
                          [](const auto& info) { return std::string(info.param.name); });
 
 TEST_P(Resume, LeavesNoTrace) {
@@ -208,7 +105,7 @@ TEST(ResumedTimes, AreOfAllSteps) {
   const Folder folder("resume_times");
   json scene = pulled_block();
   json& pipeline = scene["pipeline"];
-  pipeline[material].erase("failure");
+  pipeline[material_stage].erase("failure");
   pipeline[3]["value"] = {0, 0, 0.01};
 #ifdef HYPERLATTICE_SANITIZED
   pipeline[5]["end_time"] = "2 ms";  // as long as 10 ms without sanitizers
