@@ -137,7 +137,7 @@ class Implicit {
         o_.time_step ? implicit::StepLength(planned.time_step, planned.time_step, 0)
                      : implicit::StepLength(std::min(first_step * facts.critical_time_step, length),
                                             length, o_.tolerance);
-    if (!host.kept.empty()) recall(host.kept, *system, newton, steps);
+    if (!host.kept.empty()) steps.recall(equilibrium::recall(host.kept, newton));
     const std::size_t numbers = problem->grid.numbers();
     equilibrium::Field mean(numbers), change(numbers), end(numbers);
     while (host.time < planned.end_time) {
@@ -165,7 +165,7 @@ class Implicit {
       const bool goes_on = host.accept_step(mean.data());
       if (problem->growth > o_.damage_step)
         steps.cut(h * o_.damage_step / problem->growth, facts.critical_time_step);
-      keep(host, *system, newton, steps);
+      keep(host, newton, steps);
       if (!goes_on || !host.observe()) return;
     }
   }
@@ -174,16 +174,12 @@ class Implicit {
   static constexpr double first_step = 2;  // automatic, of the critical step
 
   /// Keeps what the next step needs, so that a checkpoint may be taken here.
-  static void keep(const SolverHost& host, const equilibrium::System& system,
-                   const equilibrium::Newton& newton, const implicit::StepLength& steps) {
+  static void keep(const SolverHost& host, const equilibrium::Newton& newton,
+                   const implicit::StepLength& steps) {
     std::vector<double> all;
-    equilibrium::remember(system, newton, all);
+    equilibrium::remember(newton, all);
     steps.remember(all);
     host.keep(all);
-  }
-  static void recall(std::span<const double> all, equilibrium::System& system,
-                     equilibrium::Newton& newton, implicit::StepLength& steps) {
-    steps.recall(equilibrium::recall(all, system, newton));
   }
 
   static std::string failure_text(double time, double h, const equilibrium::Outcome& found) {

@@ -54,6 +54,7 @@ class Newton {
     report_ = memory.report;
     scale_ = memory.scale;
   }
+  System& system() const { return system_; }
   const RestReport& report() const { return report_; }
   bool stopped() const { return stopped_; }  ///< whether the host stopped the search
 

@@ -10,9 +10,9 @@
 namespace hyperlattice::equilibrium {
 
 /// Adds the memory of the search and what its preconditioner was made from.
-void remember(const System& system, const Newton& newton, std::vector<double>& all);
+void remember(const Newton& newton, std::vector<double>& all);
 /// Goes on with what remember() added, before the first search. Returns the numbers behind it.
 /// Throws std::runtime_error if they are of another solver or body.
-std::span<const double> recall(std::span<const double> all, System& system, Newton& newton);
+std::span<const double> recall(std::span<const double> all, Newton& newton);
 
 }  // namespace hyperlattice::equilibrium
