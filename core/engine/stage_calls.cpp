@@ -87,6 +87,7 @@ StageCalls::StageCalls(const Model& model, Simulation& simulation, const Planned
     return calls.guarded([&] {
       calls.statics().accept(fraction, displacement);
       calls.host_.time = calls.simulation_.time();
+      if (calls.hooks_.rested) calls.hooks_.rested();
       if (calls.hooks_.advanced) calls.hooks_.advanced(false);
     });
   };
@@ -146,7 +147,8 @@ void StageCalls::meet_end(double time_step) {
 void StageCalls::run() {
   const Stage& stage = *stage_.stage;
   simulation_.set_added_mass(stage_.mass_scaling ? stage_.mass_scaling->time_step() : 0);
-  simulation_.set_damping(stage_.plan.damping);
+  // A run that is resumed has the damping of its last step, with which that state is recorded.
+  if (host_.steps_done == 0) simulation_.set_damping(stage_.plan.damping);
   simulation_.set_local_steps(stage_.plan.local.time_step, stage_.plan.local.parts);
   if (stage_.plan.at_rest && stage_.plan.time_step > 0)
     simulation_.hold_time(stage_.plan.end_time);  // otherwise the solver sets the time

@@ -23,8 +23,9 @@ class StageCalls {
   /// Further actions when a solver calls; each may be empty.
   struct Hooks {
     std::function<void(double time_step)> stepped;
-    /// After `stepped`, and after each state of rest that the solver found. `can_change`: the
-    /// solver keeps no copy of the state, so that another one may be set.
+    std::function<void()> rested;  ///< after each state of rest that the solver found
+    /// After `stepped` or `rested`. `can_change`: the solver keeps no copy of the state, so that
+    /// another one may be set.
     std::function<void(bool can_change)> advanced;
     std::function<void()> observe;
     std::function<void(const RestReport&)> report;

@@ -1,5 +1,6 @@
 #include <equilibrium/aggregated_system.hpp>
 #include <equilibrium/height_change.hpp>
+#include <equilibrium/made_from.hpp>
 
 namespace hyperlattice::equilibrium {
 
@@ -37,6 +38,26 @@ bool AggregatedSystem::is_near(const Field& displacement) const {
 void AggregatedSystem::prepare() {
   smoother_.emplace(*this, own_blocks());
   if (!made_at_.empty() && is_near(present_)) return;
+  make_levels();
+  MadeFromWriter write(made_from_);
+  for_tangents(write);
+  write(made_at_);
+}
+
+void AggregatedSystem::make_again(std::span<const double> from) {
+  if (from.empty()) return;  // none was made
+  MadeFromReader read(from);
+  for_tangents(read);
+  present_.resize(numbers());
+  read(present_);
+  assemble(present_);
+  smoother_.emplace(*this, own_blocks());
+  make_levels();
+  made_from_.assign(from.begin(), from.end());
+}
+
+/// Makes the coarser levels from the present tangent.
+void AggregatedSystem::make_levels() {
   below_.reset();
   below_.emplace(rows(), smoother_->blocks());
   made_at_ = present_;

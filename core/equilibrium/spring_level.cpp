@@ -1,6 +1,7 @@
 #include <equilibrium/spring_level.hpp>
 
 #include <equilibrium/height_change.hpp>
+#include <equilibrium/made_from.hpp>
 
 #include <hyperlattice/volumetric_cell.hpp>
 
@@ -53,7 +54,7 @@ SpringLevel::SpringLevel(const StaticProblem& problem)
       if ((grid_.free[p] >> c & 1u) == 0) held_.push_back(c * grid_.places + p);
 }
 
-double SpringLevel::linearise(const Field& displacement, Field& force) {
+SpringTangents SpringLevel::tangents() {
   SpringTangents tangents{axial_.data(), pull_.data()};
   if (grid_.components == 4) {
     tangents.cross_axial = cross_axial_.data();
@@ -62,9 +63,14 @@ double SpringLevel::linearise(const Field& displacement, Field& force) {
   if (grid_.has_own()) tangents.own = own_.data();
   tangents.cell_stiffness = cell_stiffness_.data();
   tangents.cell_pressure = cell_pressure_.data();
-  const double energy = problem_.respond(displacement.data(), force.data(), &tangents);
+  return tangents;
+}
+
+double SpringLevel::linearise(const Field& displacement, Field& force) {
+  const SpringTangents now = tangents();
+  const double energy = problem_.respond(displacement.data(), force.data(), &now);
   deformed_ = largest(displacement) > 0;
-  rows_.pack(grid_, tangents, deformed_);
+  rows_.pack(grid_, now, deformed_);
   for (std::size_t n = 0; n < displacement.size(); ++n)
     moved_[n] = static_cast<float>(displacement[n] / grid_.spacing);
   invert_diagonal();
@@ -87,6 +93,25 @@ void SpringLevel::prepared() {
   pull_when_prepared_ = largest_pull_;
   own_when_prepared_ = largest_magnitude(own_);
   new_ = false;
+  for_made_from(MadeFromWriter(made_from_));
+}
+
+/// Calls visit with each array and number from which the coarse levels are made, and with what the
+/// finest level takes over from one tangent to the next.
+template <class Visit>
+void SpringLevel::for_made_from(Visit visit) {
+  for (Floats* const of : {&axial_, &pull_, &cross_axial_, &cross_pull_, &own_, &cell_stiffness_,
+                           &cell_pressure_, &moved_})
+    visit(*of);
+  double deformed = deformed_ ? 1 : 0;
+  for (double* const number : {&largest_pull_, &largest_eigenvalue_, &deformed}) visit(*number);
+  deformed_ = deformed > 0;
+}
+
+void SpringLevel::recall(std::span<const double> made_from) {
+  for_made_from(MadeFromReader(made_from));
+  rows_.pack(grid_, tangents(), deformed_);
+  invert_diagonal();
 }
 
 /// Returns the largest change since the last preparation of a component of the vector between the

@@ -75,13 +75,15 @@ bool StageSequence::must_stop() {
 void StageSequence::solve_stage(const PlannedStage& stage) {
   const bool resumes = stage.plan.resumes;  // otherwise the stage is repeated from its start
   recorder_.start_stage(stage, is_resumed_);
-  if (!is_resumed_ && !resumes) checkpoints_.save(simulation_.steps(), simulation_.time());
+  if (!is_resumed_ && (!resumes || stage.plan.at_rest))
+    checkpoints_.save(simulation_.steps(), simulation_.time());
   is_resumed_ = false;
   StageCalls::Hooks hooks;
   hooks.stepped = [this](double time_step) {
     ++stage_steps_;
     recorder_.take_step(time_step);
   };
+  hooks.rested = [this] { ++stage_steps_; };
   const double sweeps = stage.plan.sweeps_per_step;
   hooks.observe = [this, resumes, sweeps] {
     recorder_.observe();
@@ -106,8 +108,10 @@ void StageSequence::solve_stage(const PlannedStage& stage) {
   calls.run();
   if (must_stop()) {
     if (!resumes) return;
-    recorder_.observe_once();
-    checkpoints_.save(simulation_.steps(), simulation_.time());
+    // A solver that looks for rest may have stopped before a state that it shows.
+    if (!stage.plan.at_rest) recorder_.observe_once();
+    if (stage_steps_ > 0) checkpoints_.save(simulation_.steps(), simulation_.time());
+    if (stage.plan.at_rest) return;
   }
   recorder_.end_stage();
   // A solver may end before the whole load acts; the loads of the next stage would jump.

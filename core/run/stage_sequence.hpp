@@ -52,7 +52,7 @@ class StageSequence {
   const StageCalls* calls_ = nullptr;  ///< of the present stage
   StageMemory memory_;                 ///< of the stage in the middle of which the run continues
   std::uint64_t stages_done_ = 0;      ///< number of completed stages
-  std::uint64_t stage_steps_ = 0;      ///< steps of the present stage
+  std::uint64_t stage_steps_ = 0;      ///< steps, or states of rest, of the present stage
   bool is_resumed_ = false;            ///< the run continues in the middle of a stage
 };
 

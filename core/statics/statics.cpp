@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace hyperlattice {
 
@@ -129,9 +130,9 @@ void Statics::apply(const EquilibriumUpdate& to) {
   // A spring that its law or damage has softened away carries nothing already.
   problem_.broke = static_cast<std::uint64_t>(std::count_if(
       all.begin() + before, all.end(), [](const Breakage& one) { return !one.softened; }));
-  if (problem_.broke > 0)
+  if (problem_.broke > 0 || (problem_.damages && to.time_step == 0))
     read_springs();
-  else if (problem_.damages && to.time_step > 0)
+  else if (problem_.damages)
     restore_damage();
 }
 
@@ -153,6 +154,40 @@ void Statics::accept(double share, const double* displacement) {
   force_ = std::move(force);
   if (problem_.broke > 0) respond(state_.data(), force_.data(), nullptr);
   share_ = share;
+}
+
+/// Passes to `visit` all that stays between searches for rest, besides the state of the simulation.
+template <class Visit>
+void Statics::for_rest_memory(const Visit& visit) {
+  auto broke = static_cast<double>(problem_.broke);
+  double compared = compared_ ? 1 : 0;
+  for (double* const number :
+       {&share_, &largest_scale_, &preload_, &gravity_start_, &slowest_, &broke, &compared})
+    visit(*number);
+  problem_.broke = static_cast<std::uint64_t>(broke);
+  compared_ = compared > 0;
+  for (double& factor : factor_start_) visit(factor);
+  for (Held& held : held_)
+    for (double(*const values)[3] : {&held.from, &held.to})
+      for (double& value : *values) visit(value);
+  for (Values* const field : {&state_, &force_, &holding_})
+    for (double& value : *field) visit(value);
+}
+
+std::vector<double> Statics::memory() {
+  if (problem_.grid.inertia) return motion_memory();
+  std::vector<double> all;
+  for_rest_memory([&](double value) { all.push_back(value); });
+  return all;
+}
+
+void Statics::recall(std::span<const double> memory) {
+  if (problem_.grid.inertia) return recall_motion(memory);
+  std::size_t wanted = 0;
+  for_rest_memory([&](double) { ++wanted; });
+  if (memory.size() != wanted) throw std::runtime_error("the checkpoint is of another body");
+  const double* from = memory.data();
+  for_rest_memory([&](double& value) { value = *from++; });
 }
 
 }  // namespace hyperlattice

@@ -37,11 +37,11 @@ class Statics {
   void accept(double share, const double* displacement);
   /// Ends the step in time that the solver began, with the mean displacements `mean`.
   void accept_step(const double* mean);
-  /// Returns what implicit steps that go on from the present state need besides the simulation's
-  /// state; empty before the first step.
-  std::vector<double> memory() const;
-  /// Goes on with what memory() returned, before the first step. Throws std::runtime_error if it is
-  /// of another body.
+  /// Returns what a stage that goes on from the present state needs besides the simulation's state;
+  /// empty before the first step in time.
+  std::vector<double> memory();
+  /// Goes on with what memory() returned, before the first search. Throws std::runtime_error if it
+  /// is of another body.
   void recall(std::span<const double> memory);
   /// Returns how near to rest the present state is under the loads of the stage's end. The report
   /// has an error from the third call on.
@@ -56,6 +56,8 @@ class Statics {
   EquilibriumUpdate rest_at(double share, const double* displacement) const;
   double overshoot(double share, const double* displacement);
   void apply(const EquilibriumUpdate& to);
+  template <class Visit>
+  void for_rest_memory(const Visit& visit);
 
   // grid.cpp
   void make_grid();
@@ -128,6 +130,8 @@ class Statics {
 
   // time_step.cpp
   bool moves() const { return step_.has_value(); }
+  std::vector<double> motion_memory() const;
+  void recall_motion(std::span<const double> memory);
   void time_row(SpringRow& row) const;
   double end_of(std::size_t number, const double* mean) const {
     return state_[number] + (mean[number] - state_[number]) / step_->of.forward;

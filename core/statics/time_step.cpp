@@ -247,7 +247,7 @@ void Statics::accept_step(const double* mean) {
   if (problem_.broke > 0) respond(state_.data(), force_.data(), nullptr);
 }
 
-std::vector<double> Statics::memory() const {
+std::vector<double> Statics::motion_memory() const {
   std::vector<double> all;
   if (velocity_.empty()) return all;
   all.push_back(largest_scale_);
@@ -256,7 +256,7 @@ std::vector<double> Statics::memory() const {
   return all;
 }
 
-void Statics::recall(std::span<const double> memory) {
+void Statics::recall_motion(std::span<const double> memory) {
   const std::size_t numbers = problem_.grid.numbers();
   if (memory.size() != 1 + 3 * numbers)
     throw std::runtime_error("the checkpoint is of another body");

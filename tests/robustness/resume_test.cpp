@@ -1,35 +1,68 @@
 // Runs that are cut off repeatedly, at any step, and resumed. They leave the same files, byte for
 // byte, as a run that was never cut off.
-#include <base/own_files.hpp>
-#include <support/state_scenes.hpp>
+#include "cut_off_runs.hpp"
 
 #include <gtest/gtest.h>
-
-#include <map>
 
 namespace hyperlattice::test {
 namespace resume_test {
 
 using nlohmann::json;
 
-/// All files of a run, without its times.
-std::map<std::string, std::string> left_behind(const std::string& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-    if (entry.is_regular_file())
-      files[std::filesystem::relative(entry.path(), folder).string()] =
-          contents(entry.path().string());
-  json summary = json::parse(files.at("summary.json"));
-  for (const char* key : {"wall_seconds", "nanoseconds_per_particle_step", "peak_memory_bytes"})
-    summary.erase(key);
-  files["summary.json"] = summary.dump(1);
-  std::string& list = files["files.csv"];  // only the last entry of each file counts
-  const OwnFiles own = parse_own_files(list);
-  list.clear();
-  for (const auto& [name, file] : own)
-    if (name != "summary.json") list += own_file_line(name, file);
-  return files;
+/// A block whose top is moved, or turned aside, until it is at rest.
+void make_rest(json& scene, const json& moved, const json& solver) {
+  json& pipeline = scene["pipeline"];
+  pipeline.erase(4);
+  pipeline[lattice_stage]["shape"]["box"]["high"] = {0.006, 0.006, 0.01};
+  for (json& stage : pipeline)
+    if (stage["type"] == "probes.point") stage["position"] = {0.003, 0.003, 0.01};
+  pipeline[3] = {
+      {"type", "loads.displacement"}, {"on", "z_max"}, {"value", moved}, {"rise", "1 ms"}};
+  pipeline[4] = solver;
 }
+
+const StateCase rest_cases[] = {
+    {"rest_breaking",
+     [](json& scene) {
+       make_rest(scene, {0, 0, 3.2e-5}, {{"type", "solvers.static"}, {"load_steps", 100}});
+     }},
+    {"rest_falling",  // the load falls where springs break
+     [](json& scene) {
+       make_rest(scene, {0, 0, 3.2e-5},
+                 {{"type", "solvers.static"}, {"load_steps", 50}, {"snap_back", true}});
+     },
+     20},
+    {"rest_bending",  // so far that the preconditioner is made anew
+     [](json& scene) {
+       make_rest(scene, {4e-3, 0, 0}, {{"type", "solvers.static"}, {"load_steps", 60}});
+       scene["pipeline"][material_stage].erase("failure");
+     },
+     20},
+    {"rest_cracking",  // controlled by an opening
+     [](json& scene) {
+       make_rest(scene, {0, 0, 2e-5},
+                 {{"type", "solvers.static"},
+                  {"opening_from", "z_min"},
+                  {"opening_to", "z_max"},
+                  {"opening_step", 1e-7},
+                  {"opening_end", 1e-5}});
+       scene["pipeline"][material_stage].update({{"membrane", "none"},
+                                                 {"poisson", 0.25},
+                                                 {"failure",
+                                                  {{"type", "failures.cohesive"},
+                                                   {"strength", "2.5 MPa"},
+                                                   {"fracture_energy", "15 J/m2"}}}});
+     }},
+    {"rest_damped",
+     [](json& scene) {
+       make_rest(scene, {0, 0, 1e-5},
+                 {{"type", "solvers.relaxation"},
+                  {"method", "accelerated"},
+                  {"tolerance", 1e-9},
+                  {"displacement_error", 1e-9}});
+       scene["pipeline"][material_stage].erase("failure");
+     }},
+};
 
 class Resume : public testing::TestWithParam<StateCase> {
  protected:
@@ -40,10 +73,9 @@ class Resume : public testing::TestWithParam<StateCase> {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run_program(arguments, launch);
   }
-  /// Runs to the end. The signal cuts the run off repeatedly, after about 40 more rows of the
-  /// history.
+  /// Runs to the end. The signal cuts the run off repeatedly, after some more rows of the history.
   void cut_off_and_go_on(int signal, const std::string& out, const std::vector<std::string>& more) {
-    constexpr std::size_t rows = 40;  // rows of the history between two cuts
+    const std::size_t rows = GetParam().rows;
     std::size_t cuts = 0, next = rows;
     std::vector<std::string> arguments = more;
     for (;;) {
@@ -65,7 +97,7 @@ class Resume : public testing::TestWithParam<StateCase> {
       ASSERT_TRUE(result.exit_code == 130 || result.exit_code == 1000 + SIGKILL)
           << result.exit_code << result.err;
       ++cuts;
-      next += rows;
+      next = table_rows(out + "/history.csv").size() + rows;
       ASSERT_LT(cuts, 100u);
       arguments = more;
       arguments.push_back("--resume");
@@ -87,6 +119,8 @@ class Resume : public testing::TestWithParam<StateCase> {
   std::string file, whole = folder.file("whole");
 };
 INSTANTIATE_TEST_SUITE_P(Scenes, Resume, testing::ValuesIn(state_cases),
+                         [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(Rest, Resume, testing::ValuesIn(rest_cases),
                          [](const auto& info) { return std::string(info.param.name); });
 
 TEST_P(Resume, LeavesNoTrace) {
@@ -135,159 +169,6 @@ TEST(ResumedTimes, AreOfAllSteps) {
   EXPECT_GT(both, 0.9 * first);
   EXPECT_NEAR(summary["nanoseconds_per_particle_step"].get<double>(), 1e9 * both / work,
               1e-9 * 1e9 * both / work);
-}
-
-/// Makes sure that a killed run has a checkpoint.bin. A kill between the two renames of a
-/// checkpoint (core/run/checkpoint.cpp) leaves only the previous checkpoint, which is then copied.
-void restore_checkpoint(const std::string& out) {
-  const std::string newest = out + "/checkpoint.bin", earlier = out + "/checkpoint.previous.bin";
-  if (!std::filesystem::exists(newest) && std::filesystem::exists(earlier))
-    std::filesystem::copy_file(earlier, newest);
-}
-
-class ResumeFaults : public testing::Test {
- protected:
-  void SetUp() override {
-    json scene = pulled_block();
-    scene["pipeline"][5]["end_time"] = 1;
-    file = write_scene(folder, scene);
-    Launch launch;
-    launch.meanwhile = [&](pid_t child) {
-      EXPECT_TRUE(wait_until([&] { return std::filesystem::exists(out + "/checkpoint.bin"); }));
-      kill(child, SIGKILL);
-    };
-    run_program({"run", file, "--out", out, "--threads", "2", "--checkpoint-every", "0.001"},
-                launch);
-    restore_checkpoint(out);
-  }
-  Result resume(std::vector<std::string> more = {}) {
-    std::vector<std::string> arguments{"run", file, "--out", out, "--resume"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run_program(arguments);
-  }
-
-  Folder folder{"resume"};
-  std::string file, out = folder.file("out");
-};
-
-TEST_F(ResumeFaults, NothingToResume) {
-  out = folder.file("elsewhere");
-  const Result result = resume();
-  EXPECT_EQ(result.exit_code, 2) << result.err;
-  EXPECT_NE(result.err.find("--resume"), std::string::npos) << result.err;
-  EXPECT_NE(result.err.find("there is none"), std::string::npos) << result.err;
-  EXPECT_FALSE(std::filesystem::exists(out));
-}
-
-TEST_F(ResumeFaults, AnotherScene) {
-  const auto before = contents(out + "/checkpoint.bin");
-  const Result result = resume({"--set", "/pipeline/1/young=2e10"});
-  EXPECT_EQ(result.exit_code, 2) << result.err;
-  EXPECT_NE(result.err.find("a checkpoint of this scene"), std::string::npos) << result.err;
-  EXPECT_EQ(contents(out + "/checkpoint.bin"), before);
-}
-
-TEST_F(ResumeFaults, IncludedFilesArePartOfTheScene) {
-  const std::string parts = folder.file("parts.json"), whole = contents(file);
-  nlohmann::json changed = nlohmann::json::parse(whole);
-  changed["pipeline"][1]["young"] = 2e10;
-  std::ofstream(file) << R"({"include": "parts.json"})";
-  std::ofstream(parts) << changed.dump();
-  EXPECT_EQ(resume().exit_code, 2);
-  std::ofstream(parts) << whole;
-  Launch launch;
-  launch.meanwhile = [](pid_t child) {
-    std::this_thread::sleep_for(std::chrono::seconds(2));
-    kill(child, SIGINT);
-  };
-  const Result result = run_program({"run", file, "--out", out, "--resume"}, launch);
-  EXPECT_EQ(result.exit_code, 130) << result.err;
-}
-
-/// All files of a folder with their bytes.
-std::map<std::string, std::string> all_of(const std::string& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-    if (entry.is_regular_file()) files[entry.path().string()] = contents(entry.path().string());
-  return files;
-}
-
-TEST_F(ResumeFaults, DamagedOrCutOff) {
-  std::filesystem::remove(out + "/checkpoint.previous.bin");
-  const std::string path = out + "/checkpoint.bin", whole = contents(path);
-  std::string damaged = whole;
-  damaged[whole.size() / 2] = static_cast<char>(damaged[whole.size() / 2] ^ 1);
-  for (const std::string& bytes :
-       {damaged, whole.substr(0, whole.size() / 2), std::string("no checkpoint at all"),
-        whole + "x", std::string()}) {
-    std::ofstream(path, std::ios::binary) << bytes;
-    const auto before = all_of(out);
-    const Result result = resume();
-    EXPECT_EQ(result.exit_code, 2) << result.err;
-    EXPECT_NE(result.err.find("a checkpoint that is whole"), std::string::npos) << result.err;
-    EXPECT_TRUE(all_of(out) == before) << "a refusal touches nothing";
-  }
-}
-
-/// If a file or table from before the checkpoint has changed, the message names it, and all files
-/// stay as they are.
-TEST_F(ResumeFaults, ChangedResults) {
-  const auto refuses = [&](const std::string& name,
-                           const std::function<void(const std::string& path)>& change) {
-    const std::string bytes = contents(out + "/" + name);
-    change(out + "/" + name);
-    const auto before = all_of(out);
-    const Result result = resume();
-    EXPECT_EQ(result.exit_code, 2) << name << ": " << result.err;
-    EXPECT_NE(result.err.find(name), std::string::npos) << result.err;
-    EXPECT_TRUE(all_of(out) == before) << name;
-    std::ofstream(out + "/" + name, std::ios::binary) << bytes;
-  };
-  const auto shorten = [](const std::string& path) { std::ofstream(path) << "time\n"; };
-  const auto remove = [](const std::string& path) { std::filesystem::remove(path); };
-  const auto edit = [](const std::string& path) {
-    std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
-    file.seekp(3);
-    file.put('#');
-  };
-  for (const std::string name : {"history.csv", "probes/top.csv", "frames_000000.vtu",
-                                 "tables/frames_000000.csv", "scene.resolved.json"}) {
-    refuses(name, shorten);
-    refuses(name, remove);
-    refuses(name, edit);
-  }
-  refuses("frames.pvd", remove);
-  refuses("files.csv", shorten);
-}
-
-/// A run as in ResumeFaults with an early end.
-class Earlier : public ResumeFaults {};
-
-TEST_F(Earlier, CheckpointIsUsedWithAWord) {
-  json scene = pulled_block();
-  scene["pipeline"][5]["end_time"] = "300 us";
-  file = write_scene(folder, scene);
-  const std::string whole = folder.file("whole");
-  out = folder.file("killed");
-  ASSERT_EQ(run_program({"run", file, "--out", whole, "--threads", "2"}).exit_code, 0);
-  Launch launch;
-  launch.meanwhile = [&](pid_t child) {
-    wait_until([&] {
-      return std::filesystem::exists(out + "/checkpoint.previous.bin") ||
-             contents(out + "/summary.json").find("done") != std::string::npos;
-    });
-    kill(child, SIGKILL);
-  };
-  run_program({"run", file, "--out", out, "--threads", "2", "--checkpoint-every", "0.001"}, launch);
-  if (!std::filesystem::exists(out + "/checkpoint.previous.bin"))
-    GTEST_SKIP() << "the run was done before it was killed";
-  restore_checkpoint(out);
-  std::ofstream(out + "/checkpoint.bin", std::ios::binary | std::ios::in).put('?');
-  const Result result = resume();
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_NE(result.err.find("goes on from the checkpoint before it"), std::string::npos)
-      << result.err;
-  EXPECT_TRUE(left_behind(out) == left_behind(whole));
 }
 
 }  // namespace resume_test

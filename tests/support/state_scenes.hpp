@@ -11,6 +11,7 @@ namespace hyperlattice::test {
 /// Indices of stages in the scenes below.
 inline constexpr std::size_t lattice_stage = 0, material_stage = 1;
 
+/// A block that is pulled apart, with all kinds of outputs.
 inline nlohmann::json pulled_block() {
   return nlohmann::json::parse(R"({ "format": "hyperlattice/1", "pipeline": [
     { "type": "lattices.cubic", "spacing": 1e-3, "shape": { "box": { "low": [0, 0, 0], "high": [0.012, 0.012, 0.02] } } },
@@ -39,6 +40,7 @@ inline void make_implicit(nlohmann::json& scene) {
 struct StateCase {
   const char* name;
   void (*change)(nlohmann::json& scene);
+  std::size_t rows = 40;  ///< of the history between two cuts
 };
 inline void PrintTo(const StateCase& scene, std::ostream* out) { *out << scene.name; }
 inline const StateCase state_cases[] = {

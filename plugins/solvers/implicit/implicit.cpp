@@ -5,7 +5,7 @@
 // linear springs, momentum and angular momentum (docs/theory/implicit.md).
 #include "step_length.hpp"
 
-#include <equilibrium/newton.hpp>
+#include <equilibrium/search_memory.hpp>
 #include <equilibrium/systems.hpp>
 
 #include <hyperlattice/files.hpp>
@@ -120,7 +120,7 @@ class Implicit {
     plan.steps = static_cast<std::uint64_t>(std::max(1.0, parts));
     plan.time_step = length / static_cast<double>(plan.steps);
     plan.sweeps_per_step = facts.listed ? 600 : 120;
-    plan.bytes_per_site = facts.listed ? 11000 : 1300;
+    plan.bytes_per_site = facts.listed ? 11000 : 1700;
     return plan;
   }
 
@@ -137,11 +137,10 @@ class Implicit {
         o_.time_step ? implicit::StepLength(planned.time_step, planned.time_step, 0)
                      : implicit::StepLength(std::min(first_step * facts.critical_time_step, length),
                                             length, o_.tolerance);
-    if (!host.kept.empty()) recall(host.kept, newton, steps);
+    if (!host.kept.empty()) steps.recall(equilibrium::recall(host.kept, newton));
     const std::size_t numbers = problem->grid.numbers();
     equilibrium::Field mean(numbers), change(numbers), end(numbers);
     while (host.time < planned.end_time) {
-      newton.forget_history();  // a run that is resumed here has none
       const double h = steps.next(planned.end_time - host.time);
       problem->begin_step({h, forward});
       std::copy_n(problem->state, numbers, mean.begin());
@@ -177,18 +176,10 @@ class Implicit {
   /// Keeps what the next step needs, so that a checkpoint may be taken here.
   static void keep(const SolverHost& host, const equilibrium::Newton& newton,
                    const implicit::StepLength& steps) {
-    const equilibrium::Newton::Memory of = newton.memory();
-    std::vector<double> all{of.scale, of.report.residual, of.report.displacement_error,
-                            static_cast<double>(of.report.iterations)};
+    std::vector<double> all;
+    equilibrium::remember(newton, all);
     steps.remember(all);
     host.keep(all);
-  }
-  static void recall(std::span<const double> all, equilibrium::Newton& newton,
-                     implicit::StepLength& steps) {
-    constexpr std::size_t own = 4;
-    if (all.size() < own) throw std::runtime_error("the checkpoint is of another solver");
-    newton.recall({{all[1], all[2], static_cast<std::uint64_t>(all[3])}, all[0]});
-    steps.recall(all.subspan(own));
   }
 
   static std::string failure_text(double time, double h, const equilibrium::Outcome& found) {

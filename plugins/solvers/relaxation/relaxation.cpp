@@ -12,6 +12,7 @@
 #include <hyperlattice/rest.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -30,22 +31,30 @@ class Acceleration {
 
   /// Sets the drag of the next step. Returns false if the run must stop.
   bool set_drag(const SolverHost& host) {
-    constexpr int every = 4;        // steps between two measurements of the kinetic energy
-    constexpr double fallen = 0.8;  // of the maximum since the restart; short waves disturb it
+    constexpr std::uint64_t every = 4;  // steps between two measurements of the kinetic energy
+    constexpr double fallen = 0.8;      // of the maximum since the restart; short waves disturb it
     double kinetic = 0;
     if (since_ > 0 && since_ % every == 0) {
       if (!host.measure(nullptr, &kinetic)) return false;
       if (kinetic < fallen * largest_) since_ = 0;
       largest_ = since_ == 0 ? 0 : std::max(largest_, kinetic);
     }
-    host.damp(6 / ((2 * since_ + 3) * time_step_));
+    host.damp(6 / (static_cast<double>(2 * since_ + 3) * time_step_));
     ++since_;
     return true;
   }
 
+  double largest() const { return largest_; }     ///< kinetic energy since the last restart, J
+  std::uint64_t since() const { return since_; }  ///< steps since then
+  /// Goes on with these two.
+  void recall(double largest, std::uint64_t since) {
+    largest_ = largest;
+    since_ = since;
+  }
+
  private:
   double time_step_, largest_ = 0;
-  int since_ = 0;  ///< steps since the last restart
+  std::uint64_t since_ = 0;
 };
 
 class Relaxation {
@@ -118,6 +127,7 @@ class Relaxation {
           "laws without memory, which would follow the motion on the way to rest; a body with such "
           "a law comes to rest by solvers.static, or by steps in time with damping");
     SolverPlan plan = plan_of_rest(facts, o_.end_time);
+    plan.resumes = true;
     plan.bytes_per_site = 250;  // for the measurement of the residual
     plan.damping = alpha();
     plan.stable_time_step = facts.critical_time_step / std::sqrt(1 + plan.damping);
@@ -137,11 +147,20 @@ class Relaxation {
     const double time_step = plan(facts).time_step;
     RestReport report;
     Acceleration acceleration(time_step);
-    if (!host.observe()) return;
-    while (report.iterations < static_cast<std::uint64_t>(o_.most_steps)) {
-      if (o_.method == Damping::accelerated && !acceleration.set_drag(host)) return;
-      if (!host.step(time_step)) return;
-      ++report.iterations;
+    bool is_resumed = host.steps_done > 0;
+    if (is_resumed)
+      recall(host.kept, report, acceleration);
+    else if (!host.observe())
+      return;
+    while (report.iterations < static_cast<std::uint64_t>(o_.most_steps) || is_resumed) {
+      if (!is_resumed) {
+        if (o_.method == Damping::accelerated && !acceleration.set_drag(host)) return;
+        const bool goes_on = host.step(time_step);
+        ++report.iterations;
+        keep(host, report, acceleration);
+        if (!goes_on) return;
+      }
+      is_resumed = false;  // what follows a step may be missing: to do it again changes nothing
       if (report.iterations % every == 0 && !host.measure(&report, nullptr)) return;
       if (!host.report(report) || !host.observe()) return;
       if (report.iterations % every == 0 && at_rest(report)) {
@@ -160,6 +179,20 @@ class Relaxation {
   }
 
  private:
+  /// Keeps what the next step and measurement need, so that a checkpoint may be taken here.
+  static void keep(const SolverHost& host, const RestReport& report,
+                   const Acceleration& acceleration) {
+    host.keep(std::array{static_cast<double>(report.iterations), report.residual,
+                         report.displacement_error, acceleration.largest(),
+                         static_cast<double>(acceleration.since())});
+  }
+  static void recall(std::span<const double> kept, RestReport& report, Acceleration& acceleration) {
+    if (kept.size() != 5) throw std::runtime_error("the checkpoint is of another solver");
+    report.iterations = static_cast<std::uint64_t>(kept[0]);
+    report.residual = kept[1];
+    report.displacement_error = kept[2];
+    acceleration.recall(kept[3], static_cast<std::uint64_t>(kept[4]));
+  }
   bool at_rest(const RestReport& report) const {
     const double error = report.displacement_error;
     return report.residual <= o_.tolerance &&

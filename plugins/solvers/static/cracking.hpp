@@ -21,11 +21,15 @@ class Cracking {
   Outcome solve_load_step(double most_share, double most_growth, double& share,
                           Field& displacement);
 
+  /// Whether damage has ended a step: it controls the steps that follow.
+  bool has_cracked() const { return cracked_; }
+  void set_cracked(bool cracked) { cracked_ = cracked; }
+
  private:
   const StaticProblem& problem_;
   Newton& newton_;
   bool follows_;
-  bool cracked_ = false;  ///< whether damage has ended a step
+  bool cracked_ = false;
 };
 
 }  // namespace hyperlattice::equilibrium

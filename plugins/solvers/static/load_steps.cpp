@@ -1,6 +1,9 @@
 #include "load_steps.hpp"
 
+#include <equilibrium/search_memory.hpp>
+
 #include <algorithm>
+#include <stdexcept>
 
 namespace hyperlattice::equilibrium {
 
@@ -24,6 +27,8 @@ bool LoadSteps::is_done() const {
 }
 
 bool LoadSteps::run() {
+  if (resumed_ && was_shown_ && !host_.observe()) return false;
+  if (resumed_ && !complete()) return false;
   while (!is_done())
     if (!advance()) return false;
   return true;
@@ -51,12 +56,44 @@ void LoadSteps::go_back() {
   if (problem_.damages) problem_.restore_damage();
 }
 
+/// Makes the state of rest that was found the present one, and keeps what the way from there
+/// depends on. `settles`: it follows a state in which springs broke. Returns false if the run must
+/// stop.
+bool LoadSteps::accept(bool settles) {
+  const bool goes_on = host_.accept(share_, u_.data());
+  const bool is_shown = settles && (options_.snap_back || control_);
+  std::vector<double> all{share_,
+                          opening_,
+                          length_,
+                          cracking_.has_cracked() ? 1.0 : 0.0,
+                          control_ ? control_->start() : 0,
+                          control_ ? control_->reached() : 0,
+                          is_shown ? 1.0 : 0.0};
+  remember(newton_, all);
+  host_.keep(all);
+  return goes_on && (!is_shown || host_.observe());
+}
+
+void LoadSteps::recall(std::span<const double> kept) {
+  constexpr std::size_t own = 7;
+  if (kept.size() < own) throw std::runtime_error("the checkpoint is of another solver");
+  share_ = kept[0];
+  opening_ = kept[1];
+  length_ = kept[2];
+  cracking_.set_cracked(kept[3] > 0);
+  if (control_) control_->recall(kept[4], kept[5]);
+  was_shown_ = kept[6] > 0;
+  resumed_ = true;
+  equilibrium::recall(kept.subspan(own), newton_);
+}
+
 /// Makes a step, or cuts it. Returns false if the stage must end.
 bool LoadSteps::advance() {
   constexpr double nearly = 1e-9, least = 0.1, most = 0.9;
   const double start = place(), end = control_ ? options_.opening_end : 1;
   const double next = start + length_ > end - nearly * options_.longest ? end : start + length_;
   double reached = share_;
+  newton_.forget_tangent();  // a run that is resumed here has none
   if (!search(next, reached)) {
     length_ /= 2;
     return !newton_.stopped() && !found_.hopeless && length_ >= 0.99 * options_.shortest;
@@ -72,7 +109,12 @@ bool LoadSteps::advance() {
   }
   share_ = reached;
   if (control_) opening_ = control_->reached();
-  if (!host_.accept(share_, u_.data()) || !settle()) return false;
+  return accept(false) && complete();
+}
+
+/// Ends a step whose state was accepted. Returns false if the run must stop.
+bool LoadSteps::complete() {
+  if (!settle()) return false;
   length_ = std::min(options_.longest, 2 * length_);
   return host_.report(newton_.report()) && host_.observe();
 }
@@ -96,8 +138,7 @@ bool LoadSteps::settle() {
       continue;
     }
     tries = 0;
-    if (!host_.accept(share_, u_.data())) return false;
-    if ((options_.snap_back || control_) && !host_.observe()) return false;
+    if (!accept(true)) return false;
   }
   return true;
 }

@@ -6,6 +6,8 @@
 #include "cracking.hpp"
 #include "opening_control.hpp"
 
+#include <span>
+
 namespace hyperlattice::equilibrium {
 
 /// Steps are fractions of the load; with an opening, m.
@@ -26,6 +28,9 @@ class LoadSteps {
 
   /// Goes to the end. Returns false if the run must stop or no further state of rest was found.
   bool run();
+  /// Goes on with what the run that is resumed kept last, before run(). Throws std::runtime_error
+  /// if it is of another solver or body.
+  void recall(std::span<const double> kept);
   /// Returns the outcome of the last search.
   const Outcome& outcome() const { return found_; }
   /// Returns the fraction of the load of the last state of rest.
@@ -35,6 +40,8 @@ class LoadSteps {
   bool is_done() const;
   double place() const { return control_ ? opening_ : share_; }
   bool advance();
+  bool accept(bool settles);
+  bool complete();
   bool settle();
   bool search(double next, double& reached);
   void go_back();
@@ -45,10 +52,12 @@ class LoadSteps {
   LoadStepOptions options_;
   Cracking cracking_;
   std::optional<OpeningControl> control_;
-  Field u_;             ///< displacements, m
-  double share_ = 0;    ///< fraction of the load of the last state of rest
-  double opening_ = 0;  ///< of the last state of rest, m
-  double length_;       ///< of the next step
+  bool resumed_ = false;   ///< whether the last accepted step is to be completed
+  bool was_shown_ = true;  ///< whether that state is one that outputs see before it is complete
+  Field u_;                ///< displacements, m
+  double share_ = 0;       ///< fraction of the load of the last state of rest
+  double opening_ = 0;     ///< of the last state of rest, m
+  double length_;          ///< of the next step
   Outcome found_;
 };
 

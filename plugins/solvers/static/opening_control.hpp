@@ -25,6 +25,12 @@ class OpeningControl {
   Outcome solve(double wanted, double step, double& share, Field& displacement);
   /// Returns the opening of the state that was found last, or of the stage's start, m.
   double reached() const { return reached_; }
+  double start() const { return start_; }  ///< the opening of the stage's start, m
+  /// Goes on with these two, m.
+  void recall(double start, double reached) {
+    start_ = start;
+    reached_ = reached;
+  }
 
  private:
   struct Point {

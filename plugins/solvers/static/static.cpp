@@ -159,8 +159,9 @@ class Static {
         facts.listed
             ? 2200
             : 400;  // measured, set-up included: a compact grid takes 250, a slender one 550
-    plan.bytes_per_site = facts.listed ? 11000 : 1300;
+    plan.bytes_per_site = facts.listed ? 11000 : 1700;
     plan.grows_damage = true;
+    plan.resumes = true;
     if (facts.damages) {  // measured: a particle's damage grows to 1 while its neighbours' do
       plan.steps += static_cast<std::uint64_t>(3 / o_.damage_step);
       plan.sweeps_per_step *= 20;
@@ -169,7 +170,8 @@ class Static {
   }
 
   void run(const SolverFacts& facts, SolverHost& host) const {
-    if (!host.observe()) return;
+    const bool is_resumed = host.steps_done > 0;
+    if (!is_resumed && !host.observe()) return;
     const StaticProblem* problem = host.statics();
     if (problem == nullptr) return;
     const std::unique_ptr<equilibrium::System> system =
@@ -190,6 +192,7 @@ class Static {
          .snap_back = o_.snap_back,
          .opening = opening,
          .opening_end = o_.opening_end.value_or(infinity)});
+    if (is_resumed) steps.recall(host.kept);
     if (steps.run()) return;
     const equilibrium::Outcome& found = steps.outcome();
     if (found.at_rest || newton.stopped()) return;  // the host has ended the stage

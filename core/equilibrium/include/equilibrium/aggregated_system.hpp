@@ -17,17 +17,20 @@ class AggregatedSystem : public ListedSystem {
 
   double linearise(const Field& displacement, Field& force) override;
   void prepare() override;
-  void forget() override { made_at_.clear(); }
+  std::span<const double> made_from() const override { return made_from_; }
+  void make_again(std::span<const double> from) override;
   void apply(const Field& r, Field& z) override;
 
  private:
   numerics::BlockJacobi own_blocks() const;
   numerics::SparseRows rows() const;
   bool is_near(const Field& displacement) const;
+  void make_levels();
 
   Field present_, made_at_;  ///< displacements of the present tangent, and of the tangent for which
                              ///< the levels were made (empty: none)
   double pull_made_at_ = 0, own_made_at_ = 0;  ///< largest_pull() and largest_own() at made_at_
+  std::vector<double> made_from_;              ///< the tangents there
   std::optional<numerics::ChebyshevSmoother> smoother_;
   std::optional<numerics::AggregationMultigrid> below_;
   Field rest_;

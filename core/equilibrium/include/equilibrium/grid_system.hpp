@@ -22,7 +22,13 @@ class GridSystem : public System {
     multigrid_.build();
     matrix_.prepared();
   }
-  void forget() override { matrix_.forget(); }
+  std::span<const double> made_from() const override { return matrix_.made_from(); }
+  void make_again(std::span<const double> from) override {
+    if (from.empty()) return;  // none was made
+    matrix_.recall(from);
+    multigrid_.build();
+    matrix_.prepared();
+  }
   void apply(const Field& r, Field& z) override { multigrid_.apply(r, z); }
   double stiffest() const override { return matrix_.stiffest(); }
   double softest_height() const override { return matrix_.softest_height(); }

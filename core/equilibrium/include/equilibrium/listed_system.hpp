@@ -41,10 +41,19 @@ class ListedSystem : public System {
         visit(b * places + static_cast<std::size_t>(column_[n]), block(n)[a * components_ + b]);
   }
 
+ protected:
+  /// Calls visit with each array of tangents, for checkpoints.
+  template <class Visit>
+  void for_tangents(Visit& visit) {
+    for (Floats* const of : {&axial_, &pull_, &cross_axial_, &cross_pull_, &own_}) visit(*of);
+    volumes_.for_numbers(visit);
+  }
+  /// Assembles the tangent at a displacement from the present tangents.
+  void assemble(const Field& displacement);
+
  private:
   void find_pattern();
   SpringNumbers numbers_of(std::size_t spring) const;
-  void assemble(const Field& displacement);
   void add_volumes(const Field& displacement);
   double* block(std::size_t at) { return blocks_.data() + at * block_size_; }
   const double* block(std::size_t at) const { return blocks_.data() + at * block_size_; }

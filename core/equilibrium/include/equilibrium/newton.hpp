@@ -42,7 +42,8 @@ class Newton {
   void set_tolerance(double tolerance) { limits_.tolerance = tolerance; }
   /// Must be called before a search if the forces of the springs have changed since the last one.
   void forget_tangent() { prepared_ = false; }
-  /// What a search takes over from those before it, besides displacements and tangents.
+  /// What a search takes over from those before it, besides displacements, tangents and
+  /// preconditioner (System::made_from()).
   struct Memory {
     RestReport report;
     double scale = 0;  ///< of out-of-balance forces, N
@@ -53,11 +54,7 @@ class Newton {
     report_ = memory.report;
     scale_ = memory.scale;
   }
-  /// Lets the next search depend on its start and the memory alone: see System::forget().
-  void forget_history() {
-    prepared_ = false;
-    system_.forget();
-  }
+  System& system() const { return system_; }
   const RestReport& report() const { return report_; }
   bool stopped() const { return stopped_; }  ///< whether the host stopped the search
 

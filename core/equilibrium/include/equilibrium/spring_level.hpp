@@ -11,6 +11,8 @@
 
 #include <hyperlattice/statics.hpp>
 
+#include <span>
+
 namespace hyperlattice::equilibrium {
 
 class SpringLevel : public GridLevel {
@@ -31,8 +33,11 @@ class SpringLevel : public GridLevel {
   bool is_new() const { return new_; }
   /// Marks the preconditioner as made for the present tangents.
   void prepared();
-  /// Makes the preconditioner new at the next linearise().
-  void forget() { moved_when_prepared_.clear(); }
+  /// Returns the tangents for which prepared() was called last, for a checkpoint.
+  std::span<const double> made_from() const { return made_from_; }
+  /// Takes over the tangents that made_from() returned. Throws std::runtime_error if they are of
+  /// another body.
+  void recall(std::span<const double> made_from);
 
   /// Computes the tangent of the spring from a place to a neighbour. Returns false if there is no
   /// spring.
@@ -61,6 +66,9 @@ class SpringLevel : public GridLevel {
   void add_cells_to_diagonal(std::int64_t first, std::int64_t count);
   void invert_diagonal();
   float largest_change() const;
+  SpringTangents tangents();
+  template <class Visit>
+  void for_made_from(Visit visit);
 
   const RowKernels* row_kernels_ = &row_kernels();
   const StaticProblem& problem_;
@@ -74,6 +82,7 @@ class SpringLevel : public GridLevel {
          pull_when_prepared_ = 0;     ///< largest |f / L| of base springs, N/m; 0 without heights
   double own_when_prepared_ = 0;      ///< largest stiffness of a number against its own change, N/m
   double softest_height_ = infinity;  ///< N/m, least stiffness of a height
+  std::vector<double> made_from_;
   bool new_ = true;
   bool deformed_ = false;
   double largest_eigenvalue_ = 2;

@@ -9,6 +9,7 @@
 #include <hyperlattice/statics.hpp>
 
 #include <functional>
+#include <span>
 
 namespace hyperlattice::equilibrium {
 
@@ -22,9 +23,12 @@ class System : public numerics::LinearOperator, public numerics::Preconditioner 
   // multiply() gives 0 for components that cannot move, and mask() sets these to 0.
   /// Makes the preconditioner, apply(), for the present tangents.
   virtual void prepare() = 0;
-  /// Lets the next prepare() depend on nothing before it, so that a run that goes on from here and
-  /// one that was resumed here take the same preconditioner.
-  virtual void forget() {}
+  /// Returns what the preconditioner was made from, for a checkpoint; empty if prepare() depends on
+  /// the present tangents alone. Valid until the next prepare().
+  virtual std::span<const double> made_from() const { return {}; }
+  /// Makes the preconditioner from what made_from() returned, before the first linearise(). Throws
+  /// std::runtime_error if that is of another body.
+  virtual void make_again(std::span<const double>) {}
   /// Returns the number of iterations after which conjugate gradients give up.
   virtual int most_iterations() const { return 1000; }
   /// Returns the largest tangent of a spring, N/m.

@@ -34,6 +34,12 @@ class VolumeTangents {
     tangents.volume_stiffness = stiffness_.data();
     tangents.volume_pressure = pressure_.data();
   }
+  /// Calls visit with each array of the tangents received last.
+  template <class Visit>
+  void for_numbers(Visit& visit) {
+    visit(stiffness_);
+    visit(pressure_);
+  }
   /// Calls add(a, b, block) for the blocks of the tangents received last, at the displacement of
   /// that response. Pairs of places come several times: their blocks add up.
   template <class Add>

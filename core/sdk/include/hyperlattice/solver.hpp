@@ -87,7 +87,8 @@ struct SolverPlan {
 struct SolverHost {
   void* self = nullptr;
   double time = 0;  ///< seconds; advanced by step()
-  /// Steps of this stage done by the run that is resumed; that run has observed the present state.
+  /// Steps, or states of rest, of this stage done by the run that is resumed. That run has observed
+  /// the present state of a step in time; a solver of states of rest observes its own again.
   std::uint64_t steps_done = 0;
   /// What the solver of that run kept last; else empty.
   std::span<const double> kept;
