@@ -1,5 +1,6 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "called_function.hpp"
 #include "job.hpp"
 
 #include <pybind11/stl.h>
@@ -37,16 +38,16 @@ py::dict energy(Job& job) {
 
 std::shared_ptr<Job> make_job(std::optional<std::string> text, std::filesystem::path file,
                               std::vector<std::string> settings, int threads,
-                              std::filesystem::path out, bool resume, bool overwrite,
-                              double checkpoint_every, bool stays) {
+                              const py::dict& functions, std::filesystem::path out, bool resume,
+                              bool overwrite, double checkpoint_every, bool stays) {
   RunOptions options;
   options.directory = std::move(out);
   options.resume = resume;
   options.overwrite = overwrite;
   options.checkpoint_every = checkpoint_every;
-  return make_waiting<Job>(
-      SceneSource{std::move(text), std::move(file), std::move(settings), threads},
-      std::move(options), stays);
+  return make_waiting<Job>(SceneSource{std::move(text), std::move(file), std::move(settings),
+                                       threads, function_set(functions)},
+                           std::move(options), stays);
 }
 
 }  // namespace
@@ -55,8 +56,8 @@ void bind_job(py::module_& core) {
   const auto released = py::call_guard<py::gil_scoped_release>();
   py::class_<Job, std::shared_ptr<Job>>(core, "Job")
       .def(py::init(&make_job), py::kw_only(), py::arg("text"), py::arg("file"),
-           py::arg("settings"), py::arg("threads"), py::arg("out"), py::arg("resume"),
-           py::arg("overwrite"), py::arg("checkpoint_every"), py::arg("stays"))
+           py::arg("settings"), py::arg("threads"), py::arg("functions"), py::arg("out"),
+           py::arg("resume"), py::arg("overwrite"), py::arg("checkpoint_every"), py::arg("stays"))
       .def("wait", &Job::wait, py::arg("seconds"), released)
       .def("go_on", &Job::go_on, py::arg("steps") = std::numeric_limits<std::uint64_t>::max(),
            py::arg("time") = std::numeric_limits<double>::infinity(), released)

@@ -1,6 +1,7 @@
 // The commands plan, study, analyze and calibrate, whose JSON the package returns.
 #include "background.hpp"
 #include "bindings.hpp"
+#include "called_function.hpp"
 #include "scene_source.hpp"
 
 #include <analyze/analysis.hpp>
@@ -29,10 +30,12 @@ using Work = std::shared_ptr<Background>;
 
 /// The plan as JSON and as text.
 Work plan(std::optional<std::string> text, std::filesystem::path file, Texts settings, int threads,
-          std::filesystem::path out) {
+          const py::dict& functions, std::filesystem::path out) {
   return make_waiting<Background>(
-      [source = SceneSource{std::move(text), std::move(file), std::move(settings), threads},
+      [source = SceneSource{std::move(text), std::move(file), std::move(settings), threads,
+                            function_set(functions)},
        out = std::move(out)] {
+        const FunctionScope scope(source.functions.get());
         const std::unique_ptr<Plan> plan = plan_of(source);
         for (std::string& missing : shortages(*plan, out))
           plan->model->warnings.push_back(std::move(missing));
@@ -130,7 +133,7 @@ void bind_tools(py::module_& core) {
       .def("result", &Background::result, released)
       .def("take_log", &Background::take_log, released);
   core.def("plan", plan, py::kw_only(), py::arg("text"), py::arg("file"), py::arg("settings"),
-           py::arg("threads"), py::arg("out"));
+           py::arg("threads"), py::arg("functions"), py::arg("out"));
   core.def("study", study, py::kw_only(), py::arg("file"), py::arg("settings"), py::arg("out"),
            py::arg("target_error"), py::arg("peers"), py::arg("fresh"), py::arg("threads"));
   core.def("analyze", analyze, py::kw_only(), py::arg("membrane"), py::arg("lattice"),

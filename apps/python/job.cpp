@@ -28,10 +28,12 @@ Job::~Job() {
 
 void Job::work() {
   const LogScope scope(log_);
+  const FunctionScope functions(scene_.functions.get());
   try {
     plan_ = plan_of(scene_);
     planned_steps_ = plan_->steps();
     planned_ = true;
+    if (scene_.functions) *scene_.functions->are_called = true;
     exit_code_ = run(*plan_, options_);
   } catch (...) {
     thrown_ = std::current_exception();

@@ -1,6 +1,7 @@
 // The module hyperlattice._core: the runtime for the Python package.
 #include "bindings.hpp"
 #include "errors.hpp"
+#include "function_set.hpp"
 #include "log_queue.hpp"
 
 #include <run/interrupt.hpp>
@@ -9,6 +10,7 @@
 #include <hyperlattice/field_table.hpp>
 
 #include <lz4.h>
+#include <pybind11/stl/filesystem.h>
 
 namespace py = pybind11;
 using namespace hyperlattice;
@@ -46,6 +48,7 @@ PYBIND11_MODULE(_core, core) {
   python::translate_errors();
   python::bind_job(core);
   python::bind_tools(core);
+  core.def("connect_functions", python::connect_functions, py::arg("library"));
   core.def("lz4_block", lz4_block, py::arg("packed"), py::arg("size"));
   core.def("field_table", field_list);
   core.def("request_stop", request_stop);

@@ -1,6 +1,8 @@
 // A scene as Python names it, and its plan.
 #pragma once
 
+#include "function_set.hpp"
+
 #include <plan/plan.hpp>
 
 #include <filesystem>
@@ -18,6 +20,9 @@ struct SceneSource {
   std::filesystem::path file;
   std::vector<std::string> settings;  ///< "/pointer=value", of a file
   int threads = 0;                    ///< 0: not given, see chosen_threads()
+  /// The Python functions that the scene names; null: none. A FunctionScope must be around all that
+  /// makes components of the scene.
+  std::shared_ptr<FunctionSet> functions;
 };
 
 /// Plans a scene. Scenes without plugins of their own share one host, so that no library is

@@ -1,6 +1,7 @@
 #include <base/visible.hpp>
 #include <host/component_check.hpp>
 
+#include <hyperlattice/array_failure.hpp>
 #include <hyperlattice/boundary.hpp>
 
 #include <nlohmann/json.hpp>
@@ -27,6 +28,7 @@ bool whole(const FailureFunctions& f) {
     return f.surface.inputs && f.surface.ratios && !f.alarm && !f.review && f.memory == 0;
   return f.alarm && f.review && f.memory <= max_failure_memory && (f.memory == 0 || f.start);
 }
+bool whole(const ArrayFailureFunctions& f) { return whole(f.springs) && f.breaks; }
 bool whole(const LoadFunctions& f) { return f.declare && f.factor; }
 bool whole(const SolverFunctions& f) { return f.plan && f.run; }
 bool whole(const WriterFunctions& f) { return f.begin && f.frame && f.end; }
@@ -49,7 +51,7 @@ bool has_functions(const ComponentInfo& info) {
     case Family::materials:
       return has_table<MaterialFunctions>(info);
     case Family::failures:
-      return has_table<FailureFunctions>(info);
+      return has_table<FailureFunctions>(info) || has_table<ArrayFailureFunctions>(info);
     case Family::loads:
       return has_table<LoadFunctions>(info);
     case Family::solvers:

@@ -1,3 +1,4 @@
+#include <model/array_criterion.hpp>
 #include <state/halo.hpp>
 
 #include <algorithm>
@@ -14,6 +15,9 @@ std::vector<int> owners_of(std::size_t blocks, int ranks) {
 
 std::string needs_whole(const Model& model) {
   if (model.body.is_listed()) return "the lattice is a list of springs";
+  for (const Material& material : model.materials)
+    if (has_array_criterion(material))
+      return "a failure criterion decides about all springs at once";
   return "";
 }
 

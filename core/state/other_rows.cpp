@@ -233,8 +233,8 @@ RowEnergies OtherRows::several_laws_of_grid(Block& block, const KernelRequest& r
       }
       if (measures || !owned) continue;
       if (result.gone) blocks_.note_gone(block, {place.index, n, {&i, 1}, {&result.elongation, 1}});
-      if (!model_.springs.breakable || !review_.reaches_alarm(spring.properties, constants.alarm,
-                                                              result.elongation, spring.memory[0]))
+      if (!model_.springs.breakable || !reaches_alarm(model_, spring.properties, constants.alarm,
+                                                      result.elongation, spring.memory[0]))
         continue;
       rung.push_back(i);
       elongations.push_back(result.elongation);
@@ -304,7 +304,7 @@ RowEnergies OtherRows::several_laws_of_list(Block& block, const KernelRequest& r
       const double growth =
           static_cast<const double*>(slots.alarm)[std::uint64_t{slot} * lanes + lane];
       const double alarm = std::sqrt(of.rest_length * of.rest_length + growth) - of.rest_length;
-      if (review_.reaches_alarm(of, alarm, result.elongation, spring.memory[0]) &&
+      if (reaches_alarm(model_, of, alarm, result.elongation, spring.memory[0]) &&
           *review_.review(block, {place.index, slot, {&t, 1}, {&result.elongation, 1}}) != 0)
         blocks_.layout().remove(block, place.index, slot, t);
     }

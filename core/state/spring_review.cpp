@@ -1,3 +1,4 @@
+#include <model/array_criterion.hpp>
 #include <state/spring_review.hpp>
 
 #include <hyperlattice/failure.hpp>
@@ -62,18 +63,6 @@ const std::uint8_t* SpringReview::review(Block& block, const AlarmRow& alarm) co
   return block.answers.data();
 }
 
-bool SpringReview::reaches_alarm(const SpringProperties& properties, double alarm,
-                                 double elongation, const Layout::Memory& memory) const {
-  if (properties.composite == nullptr || !properties.composite->in_series())
-    return elongation > alarm;
-  const LawNumbers kept = read_numbers(memory, model_.springs.memory);
-  const auto parts = properties.composite->parts();
-  return std::any_of(parts.begin(), parts.end(), [&](const SpringPart& part) {
-    return model_.elongation_in(part.material, properties, elongation, kept.data()) >
-           model_.own_alarm(part.material, properties);
-  });
-}
-
 /// Asks a criterion about alike springs from number `first` on, with these elongations of whole
 /// springs of the criterion's material. The criterion is shown only springs that are above its own
 /// alarm and not broken yet.
@@ -94,6 +83,11 @@ void SpringReview::ask(Block& block, const AlarmRow& alarm, const Material::Crit
 /// Asks a criterion about these springs, and forgets them.
 void SpringReview::ask(Block& block, const AlarmRow& alarm, const Material::Criterion& criterion,
                        const SpringFacts& facts, Asked& asked) const {
+  if (array_functions(criterion) != nullptr) {
+    look_up(block, alarm, criterion, asked);
+    asked.size = 0;
+    return;
+  }
   const auto& functions = criterion.stage->functions<FailureFunctions>();
   const std::size_t size = asked.size, rates = functions.asks_rate ? size : 0,
                     ends = functions.asks_ends ? size : 0;
@@ -132,6 +126,18 @@ void SpringReview::ask(Block& block, const AlarmRow& alarm, const Material::Crit
     if (numbers > 0) std::copy_n(&asked.memory[n * numbers], numbers, asked.kept[n]->begin());
   }
   asked.size = 0;
+}
+
+/// Looks up what a criterion has decided about these springs together with all others.
+void SpringReview::look_up(Block& block, const AlarmRow& alarm,
+                           const Material::Criterion& criterion, const Asked& asked) const {
+  for (std::size_t n = 0; n < asked.size; ++n) {
+    const std::size_t number = asked.number[n];
+    const SpringEnds spring =
+        blocks_.layout().spring(block, alarm.row, alarm.neighbour, alarm.sites[number]);
+    const auto [a, b] = std::minmax(spring.a, spring.b);
+    block.answers[number] = arrays_.breaks(criterion.number, a, b) ? 1 : 0;
+  }
 }
 
 }  // namespace hyperlattice

@@ -1,6 +1,7 @@
 // The review of springs by failure criteria.
 #pragma once
 
+#include <state/array_criteria.hpp>
 #include <state/block_set.hpp>
 #include <state/clock.hpp>
 #include <state/damage_field.hpp>
@@ -11,18 +12,15 @@ namespace hyperlattice {
 
 class SpringReview {
  public:
-  SpringReview(const BlockSet& blocks, const Clock& clock, const DamageField& damage)
-      : blocks_(blocks), model_(blocks.model()), clock_(clock), damage_(damage) {}
+  SpringReview(const BlockSet& blocks, const Clock& clock, const DamageField& damage,
+               const ArrayCriteria& arrays)
+      : blocks_(blocks), model_(blocks.model()), clock_(clock), damage_(damage), arrays_(arrays) {}
 
   /// Asks the failure criteria about springs above their alarm, and notes in the block those that
   /// break. Returns an answer for each spring, valid until the block's next review; 0: the spring
   /// holds. Criteria answer in the order of the scene; a spring that one of them breaks is not
   /// shown to those after it.
   const std::uint8_t* review(Block& block, const AlarmRow& alarm) const;
-  /// Returns whether criteria must be asked about a spring. `alarm`: elongation, m, from which they
-  /// must be asked about a spring of one law; `memory`: what the laws keep of the spring.
-  bool reaches_alarm(const SpringProperties& properties, double alarm, double elongation,
-                     const Layout::Memory& memory) const;
 
  private:
   struct Asked;
@@ -30,11 +28,14 @@ class SpringReview {
            const SpringFacts& facts, std::size_t first, std::span<const double> elongation) const;
   void ask(Block& block, const AlarmRow& alarm, const Material::Criterion& criterion,
            const SpringFacts& facts, Asked& asked) const;
+  void look_up(Block& block, const AlarmRow& alarm, const Material::Criterion& criterion,
+               const Asked& asked) const;
 
   const BlockSet& blocks_;
   const Model& model_;
   const Clock& clock_;
   const DamageField& damage_;
+  const ArrayCriteria& arrays_;
 };
 
 }  // namespace hyperlattice

@@ -3,6 +3,7 @@
 
 #include <state/acting_loads.hpp>
 #include <state/added_mass.hpp>
+#include <state/array_criteria.hpp>
 #include <state/block_set.hpp>
 #include <state/clock.hpp>
 #include <state/damage_field.hpp>
@@ -26,13 +27,14 @@ struct Simulation::State {
   Clock clock;
   ActingLoads loads{blocks, clock};
   DamageField damage{blocks, clock};
-  SpringReview review{blocks, clock, damage};
+  ArrayCriteria arrays{blocks, clock};
+  SpringReview review{blocks, clock, damage, arrays};
   NodalPressures pressures{blocks};
   LocalForces local{blocks, loads, review};
   AddedMass added{blocks};
   OtherRows other_rows{blocks, review, pressures, damage, local};
-  Sweeps sweeps{blocks, loads, review, pressures, damage, local, added, other_rows};
-  WholeReview whole_review{blocks, review};
+  Sweeps sweeps{blocks, loads, arrays, review, pressures, damage, local, added, other_rows};
+  WholeReview whole_review{blocks, review, arrays};
   FailureRecord failures{blocks, clock, pressures};
   EnergyAccount energy{blocks, clock, failures, sweeps};
   LawMemory law_memory{blocks, energy};

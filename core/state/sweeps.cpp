@@ -6,12 +6,13 @@
 
 namespace hyperlattice {
 
-Sweeps::Sweeps(BlockSet& blocks, ActingLoads& loads, const SpringReview& review,
-               NodalPressures& pressures, DamageField& damage, LocalForces& local, AddedMass& added,
-               const OtherRows& other_rows)
+Sweeps::Sweeps(BlockSet& blocks, ActingLoads& loads, ArrayCriteria& arrays,
+               const SpringReview& review, NodalPressures& pressures, DamageField& damage,
+               LocalForces& local, AddedMass& added, const OtherRows& other_rows)
     : blocks_(blocks),
       model_(blocks.model()),
       loads_(loads),
+      arrays_(arrays),
       review_(review),
       pressures_(pressures),
       damage_(damage),
@@ -31,6 +32,7 @@ std::int64_t Sweeps::step(const Sweep& sweep) {
   loads_.check_factors();
   if (!damage_.empty()) damage_.update(2 * sweep.after);
   read_motion();
+  if (!arrays_.empty()) arrays_.ask();
   if (!pressures_.empty()) pressures_.update();
   const LocalForces::Taken taken = local_steps(sweep, true);
   blocks_.for_mine([&](Block& block) {

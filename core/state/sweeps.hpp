@@ -4,6 +4,7 @@
 
 #include <state/acting_loads.hpp>
 #include <state/added_mass.hpp>
+#include <state/array_criteria.hpp>
 #include <state/block_set.hpp>
 #include <state/local_steps.hpp>
 #include <state/other_rows.hpp>
@@ -13,7 +14,7 @@ namespace hyperlattice {
 
 class Sweeps {
  public:
-  Sweeps(BlockSet& blocks, ActingLoads& loads, const SpringReview& review,
+  Sweeps(BlockSet& blocks, ActingLoads& loads, ArrayCriteria& arrays, const SpringReview& review,
          NodalPressures& pressures, DamageField& damage, LocalForces& local, AddedMass& added,
          const OtherRows& other_rows);
 
@@ -48,6 +49,7 @@ class Sweeps {
   BlockSet& blocks_;
   const Model& model_;
   ActingLoads& loads_;
+  ArrayCriteria& arrays_;
   const SpringReview& review_;
   NodalPressures& pressures_;
   DamageField& damage_;

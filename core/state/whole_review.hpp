@@ -11,7 +11,8 @@ namespace hyperlattice {
 
 class WholeReview {
  public:
-  WholeReview(BlockSet& blocks, const SpringReview& review) : blocks_(blocks), review_(review) {}
+  WholeReview(BlockSet& blocks, const SpringReview& review, ArrayCriteria& arrays)
+      : blocks_(blocks), review_(review), arrays_(arrays) {}
 
   /// Removes the springs that criteria break in the present state, and notes them in the blocks.
   void remove_broken();
@@ -21,20 +22,15 @@ class WholeReview {
   double overshoot();
 
  private:
-  /// A spring above its alarm.
-  struct Alarmed {
-    SpringPlace spring;
-    double elongation = 0;  ///< m
-  };
-  using AlarmedOfBlocks = std::vector<std::vector<Alarmed>>;
+  using AlarmedOfBlocks = std::vector<std::vector<AlarmedPlace>>;
 
   AlarmedOfBlocks alarmed();
-  bool reaches_alarm(const Block& block, const SpringPlace& spring, double elongation) const;
-  bool breaks(Block& block, const Alarmed& alarmed, double part) const;
+  bool breaks(Block& block, const AlarmedPlace& alarmed, double part) const;
   bool any_breaks(const AlarmedOfBlocks& alarmed, double part);
 
   BlockSet& blocks_;
   const SpringReview& review_;
+  ArrayCriteria& arrays_;
 };
 
 }  // namespace hyperlattice

@@ -51,3 +51,10 @@ class OutsideError(Error, OSError):
         super().__init__(message)
         self.result = result
         """What the run has left, or None if it left nothing."""
+
+
+class FunctionError(OutsideError):
+    """A Python function of the scene raised an exception, or returned something else than it must.
+
+    Its cause is the exception of the function, with its traceback.
+    """

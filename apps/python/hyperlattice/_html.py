@@ -69,10 +69,15 @@ def _warnings(warnings: list[str]) -> str:
     return "".join(f"<p><b>Warning:</b> {escape(text)}</p>" for text in warnings)
 
 
+def _functions(plan: Plan) -> str:
+    return "".join(f"<p><b>Slow:</b> {escape(one['type'])} calls {escape(one['function'])} {escape(one['called'])}</p>"
+                   for one in plan.get("python_functions", []))
+
+
 def plan_page(plan: Plan) -> str:
     table = _table([*_rows(plan, _BODY), *_rows(plan, _NEEDS)])
     left_out = _table((one["what"], one["why"]) for one in plan.get("left_out", []))
-    return (f"<h4>Plan{_title(plan)}</h4>{table}{_warnings(plan.get('warnings', []))}"
+    return (f"<h4>Plan{_title(plan)}</h4>{table}{_warnings(plan.get('warnings', []))}{_functions(plan)}"
             f"<details><summary>Left out, and why</summary>{left_out}</details>")
 
 

@@ -4,19 +4,28 @@ from __future__ import annotations
 import json
 import os
 import pathlib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from . import _core, _html
+from ._functions import notes_of
 from ._scenes import Scene, scene_arguments
 from ._waiting import pass_on_log, wait_for
+
+
+_SLOW = "Python functions, slow beside built-in components; the run time above does not count them"
 
 
 class Plan(dict):
     """The keys of `hyperlattice plan --json`. `str(plan)` is the text for people."""
 
-    def __init__(self, values: Mapping[str, Any], text: str):
+    def __init__(self, values: Mapping[str, Any], text: str, functions: Sequence[Mapping[str, str]] = ()):
+        """functions: the notes on Python functions, which only a plan of Python has, as "python_functions"."""
         super().__init__(values)
+        if functions:
+            self["python_functions"] = [dict(one) for one in functions]
+            lines = [f"  {one['pointer']} {one['type']} calls {one['function']} {one['called']}\n" for one in functions]
+            text = f"{text.rstrip()}\n{_SLOW}\n{''.join(lines)}"
         self.text = text
 
     def __str__(self) -> str:
@@ -44,4 +53,4 @@ def plan(scene: Scene, threads: int | None = None, *, settings: Mapping[str, Any
         found = json.loads(work.result())
     finally:
         pass_on_log(work)
-    return Plan(found["plan"], found["text"])
+    return Plan(found["plan"], found["text"], notes_of(arguments["functions"]))

@@ -10,7 +10,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from . import _core
-from ._errors import OutsideError, RunError
+from ._errors import FunctionError, OutsideError, RunError
+from ._functions import Call, check_unchanged, raised_in
 from ._result import Result
 from ._scenes import Scene, scene_arguments
 from ._waiting import Progress, pass_on_log, wait_for, wait_to_the_end
@@ -39,8 +40,11 @@ class Folder:
         return Result(self.path, _keep=self)
 
 
-def conclude(job: Any, folder: Folder) -> Result:
-    """Returns the results of a run that has ended, or raises what the program would report."""
+def conclude(job: Any, folder: Folder, calls: Mapping[str, Call]) -> Result:
+    """Returns the results of a run that has ended, or raises what the program would report.
+
+    calls: the Python functions of the scene.
+    """
     try:
         code = job.exit_code()
     except Exception as error:
@@ -49,6 +53,8 @@ def conclude(job: Any, folder: Folder) -> Result:
     result = folder.result()
     reason = result.summary.get("reason", "") if result else ""
     pass_on_log(job, without=reason)
+    if code in (EXIT_RUN, EXIT_OUTSIDE) and (error := raised_in(calls)) is not None:
+        raise FunctionError(reason, result) from error
     if code == EXIT_RUN:
         raise RunError(reason, result)
     if code == EXIT_OUTSIDE or result is None:
@@ -71,7 +77,8 @@ def run(scene: Scene, out: str | os.PathLike[str] | None = None, threads: int | 
     progress: shows a progress line; None: in a notebook and on a terminal.
 
     Other threads of Python go on during the run. Ctrl-C stops the run with a checkpoint and raises KeyboardInterrupt.
-    Raises SceneError with all faults, RunError if the run failed, and OutsideError if something outside failed.
+    Raises SceneError with all faults, RunError if the run failed, OutsideError if something outside failed, and its
+    subclass FunctionError if a Python function of the scene failed.
     """
     if resume and overwrite:
         raise ValueError("either resume or overwrite: one keeps the run in the folder, the other gives it up")
@@ -79,6 +86,8 @@ def run(scene: Scene, out: str | os.PathLike[str] | None = None, threads: int | 
         raise ValueError("resume needs the folder of the run: out")
     arguments = scene_arguments(scene, settings, threads)
     folder = Folder(out)
+    if resume:
+        check_unchanged(arguments["functions"], folder.path)
     job = _core.Job(**arguments, out=folder.path, resume=resume, overwrite=overwrite,
                     checkpoint_every=checkpoint_every, stays=False)
     line = Progress(job, progress)
@@ -91,4 +100,4 @@ def run(scene: Scene, out: str | os.PathLike[str] | None = None, threads: int | 
         raise
     finally:
         line.close()
-    return conclude(job, folder)
+    return conclude(job, folder, arguments["functions"])

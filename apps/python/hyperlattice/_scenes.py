@@ -3,15 +3,21 @@ from __future__ import annotations
 
 import json
 import os
+import pathlib
 from collections.abc import Mapping
 from typing import Any, Union
 
 import numpy as np
 
+from . import _core
+from ._functions import Functions
+
 Scene = Union[Mapping, str, "os.PathLike[str]"]
-"""A scene: a dict, whose relative file names count from the current folder, or the name of a scene file."""
+"""A scene: a dict, whose relative file names count from the current folder, or the name of a scene file. Stages of the
+dict may hold Python functions, see docs/guide/python.md."""
 
 MOST_THREADS = 4096
+_FUNCTIONS_PLUGIN = pathlib.Path(__file__).with_name("python_functions.so")
 
 
 def _plain(value: Any) -> Any:
@@ -44,11 +50,18 @@ def thread_number(threads: int | None) -> int:
 
 def scene_arguments(scene: Scene, settings: Mapping[str, Any] | None, threads: int | None) -> dict[str, Any]:
     """The arguments that name a scene to the core."""
-    common = {"threads": thread_number(threads)}
+    common = {"threads": thread_number(threads), "functions": {}}
     if isinstance(scene, Mapping):
         if settings:
             raise TypeError("settings are for scene files: change the dict instead")
-        return {"text": as_json(scene), "file": "", "settings": [], **common}
+        found = Functions(scene)
+        plain = found.scene
+        if found.are_named:
+            _core.connect_functions(_FUNCTIONS_PLUGIN)
+            if isinstance(plain.get("plugins", []), list):  # else a fault of the scene
+                plain["plugins"] = [*plain.get("plugins", []), os.fspath(_FUNCTIONS_PLUGIN)]
+            common["functions"] = found.calls
+        return {"text": as_json(plain), "file": "", "settings": [], **common}
     if isinstance(scene, (str, os.PathLike)):
         return {"text": None, "file": os.fspath(scene), "settings": settings_list(settings), **common}
     raise TypeError(f"a scene is a dict or the name of a file, not a {type(scene).__name__}")

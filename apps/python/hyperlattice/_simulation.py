@@ -13,6 +13,7 @@ import numpy as np
 
 from . import _core
 from ._errors import OutsideError, RunError
+from ._functions import check_unchanged, notes_of
 from ._plan import Plan
 from ._result import Result
 from ._run import Folder, conclude
@@ -40,7 +41,10 @@ class Simulation:
                  settings: Mapping[str, Any] | None = None, resume: bool = False, overwrite: bool = False,
                  checkpoint_every: float = 600):
         arguments = scene_arguments(scene, settings, threads)
+        self._calls = arguments["functions"]
         self._folder = Folder(out)
+        if resume:
+            check_unchanged(self._calls, self._folder.path)
         self._is_temporary = out is None
         self._callbacks: list[tuple[int, Callable[[Simulation], Any]]] = []
         self._result: Result | None = None
@@ -106,7 +110,7 @@ class Simulation:
 
     def _conclude(self) -> None:
         try:
-            self._result = conclude(self._job, self._folder)
+            self._result = conclude(self._job, self._folder, self._calls)
         except (RunError, OutsideError) as error:
             self._result = error.result
             raise
@@ -162,7 +166,7 @@ class Simulation:
     def plan(self) -> Plan:
         """The plan of the run."""
         text = self._job.plan_text()
-        return Plan(json.loads(text), text)
+        return Plan(json.loads(text), text, notes_of(self._calls))
 
     @property
     def time(self) -> float:
