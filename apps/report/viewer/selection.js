@@ -14,6 +14,7 @@ function fillCubes(data, settings, cubes) {
   const moved = displacement ? [0, 1, 2].map(axis => frame.arrays[displacement.first + axis]) : null;
   const failures = settings.hide ? failureParts(data).map(part => frame.arrays[part]) : [];
   const [low, high] = settings.quantity.range, shown = [];
+  const places = new Float32Array(3 * data.particles), colours = new Uint8Array(3 * data.particles);
   const chosen = new Uint8Array(data.particles), ways = new Float32Array(3 * data.particles);
   let count = 0;
   for (let p = 0; p < data.particles; ++p) {
@@ -29,11 +30,11 @@ function fillCubes(data, settings, cubes) {
   for (let p = 0; p < data.particles; ++p) {
     if (!chosen[p] || (data.neighbours && isHidden(data, chosen, ways, p))) continue;
     const at = 3 * shown.length;
-    for (let axis = 0; axis < 3; ++axis) cubes.places[at + axis] = data.rest[axis][p] + ways[3 * p + axis];
+    for (let axis = 0; axis < 3; ++axis) places[at + axis] = data.rest[axis][p] + ways[3 * p + axis];
     const value = quantityAt(data, settings.quantity, settings.frame, p);
-    putColour(high > low ? (value - low) / (high - low) : 0 * value, cubes.colours, at);
+    putColour(high > low ? (value - low) / (high - low) : 0 * value, colours, at);
     shown.push(p);
   }
-  cubes.show(shown.length);
+  cubes.show(shown.length, places, colours);
   return {shown, count};
 }

@@ -21,7 +21,7 @@ function start() {
                     factor: clearFactor(data, quantities, radius)};
 
   const canvas = element("canvas", {class: "viewer-canvas"});
-  const cubes = new Cubes(data.particles, data.spacing), scene = new THREE.Scene();
+  const cubes = new Cubes(data.spacing), scene = new THREE.Scene();
   let renderer = null;
   try {
     renderer = new THREE.WebGLRenderer({canvas, alpha: true, antialias: true, preserveDrawingBuffer: true});
