@@ -1,6 +1,7 @@
 """Checks the page of `hyperlattice report --interactive`: its numbers are those that VTK reads from the frames, it is
-well-formed and loads nothing from outside; and, where Chromium is installed, it shows the body, cuts it, and answers a
-click. Arguments: the program, the file of three.js, and a working folder, which is deleted and made anew."""
+well-formed and loads nothing from outside; and, where Chromium is installed, it shows the body, cuts it, answers a
+click, and turns the body as the pointer drags it. Arguments: the program, the file of three.js, and a working folder,
+which is deleted and made anew."""
 import base64
 import html.parser
 import json
@@ -13,7 +14,11 @@ import xml.etree.ElementTree
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOImage import vtkPNGReader
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
+import chromium  # noqa: E402
 
 TITLE = '</script><script>alert(1)</script> "a" & \'b\' ]]>'
 FIELDS = ["displacement", "broken_open", "stress"]
@@ -66,6 +71,33 @@ VISITOR = """
   document.body.append(place);
 })();
 """
+
+# Keeps the matrix of the camera whenever it is placed anew, which a change of the window's size causes too.
+WATCH_CAMERA = """
+THREE.PerspectiveCamera.prototype.updateMatrixWorld = function(force) {
+  THREE.Camera.prototype.updateMatrixWorld.call(this, force);
+  window.cameraMatrix = this.matrixWorld.toArray();
+};
+window.dispatchEvent(new Event("resize"));
+"""
+# Keeps how many cubes were drawn.
+COUNT_CUBES = """
+const draw = WebGLRenderingContext.prototype.drawElements;
+WebGLRenderingContext.prototype.drawElements = function(mode, count, ...more) {
+  window.cubesDrawn = count / 18;
+  draw.call(this, mode, count, ...more);
+};
+"""
+# Draws displacements as they are, so that no gaps open.
+TRUE_SIZE = """
+(factor => {
+  factor.value = 1;
+  factor.dispatchEvent(new Event("input"));
+  return new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)));
+})(document.querySelector(".viewer-controls input[type=number]"))
+"""
+BOX = """(() => { const box = document.querySelector(".viewer-canvas").getBoundingClientRect();
+  return [box.left, box.top, box.width, box.height, window.scrollX, window.scrollY]; })()"""
 
 
 def read_with_vtk(file):
@@ -175,6 +207,85 @@ def complaints_about_browser(text, folder):
     return found
 
 
+def read_png(png, file):
+    """Returns the colours of a picture as an array of rows, columns and three parts."""
+    file.write_bytes(png)
+    reader = vtkPNGReader()
+    reader.SetFileName(str(file))
+    reader.Update()
+    image = reader.GetOutput()
+    colours = vtk_to_numpy(image.GetPointData().GetScalars())
+    return colours.reshape(image.GetDimensions()[1], image.GetDimensions()[0], -1)[::-1, :, :3].astype(int)
+
+
+def matrix_of(page):
+    matrix = np.array(page.run("window.cameraMatrix")).reshape(4, 4)
+    return matrix[:3, :3], matrix[3, :3]  # the axes of the camera as rows, and its place
+
+
+def complaints_about_pointer(page_file, folder):
+    """Drags the pointer over the body as a person does: the camera turns by the angle that the drag means, and the
+    picture of the page shows it."""
+    right, down, per_pixel = 90, 35, 0.008  # pixels; radians, as in camera.js
+    found = []
+    all_drawn = folder / "all_drawn.html"
+    text = page_file.read_text(encoding="utf-8")
+    all_drawn.write_text(text.replace("data.neighbours = neighboursOf(data);", "data.neighbours = null;"),
+                         encoding="utf-8")
+    with chromium.Page(folder / "pointer") as page:
+        page.before_pages(COUNT_CUBES)
+        page.open(all_drawn.resolve().as_uri())
+        page.run(TRUE_SIZE)
+        left, top, width, height, _, scrolled = page.run(BOX)
+        complete = read_png(page.picture(clip=(left, top + scrolled, width, height)), folder / "complete.png")
+        of_all = page.run("window.cubesDrawn")
+        page.open(page_file.resolve().as_uri())
+        page.run(TRUE_SIZE)
+        # A picture of the whole page shows the body, although it was never in the window.
+        left, top, width, height, _, scrolled = page.run(BOX)
+        clip = (left, top + scrolled, width, height)
+        never_seen = read_png(page.picture(clip=clip), folder / "never_seen.png")
+        if top < 900 or len(np.unique(never_seen.reshape(-1, 3), axis=0)) < 20:
+            found.append("the picture of the whole page has no body in it")
+        # Particles that others hide are not drawn, and the picture is the same but for gaps of a tenth of an edge.
+        drawn, changed = page.run("window.cubesDrawn"), (complete != never_seen).any(axis=2).mean()
+        if not 0 < drawn < of_all or changed > 0.01:
+            found.append(f"{drawn} of {of_all} cubes are drawn, and {changed:.4f} of the picture are not the same")
+        page.run('document.querySelector(".viewer-canvas").scrollIntoView()')
+        page.run(WATCH_CAMERA)
+        left, top, width, height, _, scrolled = page.run(BOX)
+        clip = (left, top + scrolled, width, height)
+        axes, place = matrix_of(page)
+        before = read_png(page.picture(clip=clip), folder / "before.png")
+        start = (left + width / 2, top + height / 2)
+        page.drag(start, (start[0] + right, start[1] + down))
+        page.run("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+        after = read_png(page.picture(clip=clip), folder / "after.png")
+        turned_axes, turned_place = matrix_of(page)
+
+        # The camera looks along -z of its axes; the height of its view above the horizon is that of the z axis.
+        def angles(of):
+            return np.arctan2(of[2][1], of[2][0]), np.arcsin(of[2][2])
+
+        change = [now - then for now, then in zip(angles(turned_axes), angles(axes))]
+        if np.abs(np.array(change) - [-per_pixel * right, per_pixel * down]).max() > 2 * per_pixel:
+            found.append(f"a drag by {right}, {down} pixels turns the body by {change} radians")
+        # The body is around the origin: the camera keeps its distance.
+        if abs(np.linalg.norm(turned_place) / np.linalg.norm(place) - 1) > 0.05:
+            found.append(f"the camera goes from {place} to {turned_place}")
+        differing = (before != after).any(axis=2)
+        if not 0.02 < differing.mean() < 0.9 or differing[:20, :20].any():
+            found.append(f"{differing.mean():.3f} of the picture differ after the drag")
+        if page.run('document.querySelector(".viewer-particle").textContent') != "":
+            found.append("a drag chooses a particle")
+        page.mouse("mousePressed", *start)
+        page.mouse("mouseReleased", *start, buttons=0)
+        if not page.run('document.querySelector(".viewer-particle").textContent').startswith("Particle "):
+            found.append("a click chooses no particle")
+        found += [f"the page complains: {json.dumps(one)[:500]}" for one in page.complaints()]
+    return found
+
+
 def main():
     program, three, folder = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
     shutil.rmtree(folder, ignore_errors=True)
@@ -206,6 +317,8 @@ def main():
             found.append(f"{links.scripts} scripts, or no licence")
         found += [f"{codec}: {fault}" for fault in complaints_about_numbers(text, folder / codec, deformed)]
     found += complaints_about_browser((folder / "lz4" / "report.html").read_text(encoding="utf-8"), folder / "lz4")
+    if chromium.PROGRAM is not None:
+        found += complaints_about_pointer(folder / "lz4" / "report.html", folder / "lz4")
 
     # A run without its frames, and a frame that is cut off, are refused.
     (folder / "zlib" / "report.html").unlink()

@@ -1,19 +1,34 @@
 // Particles as cubes. Only the three faces that point to the camera are drawn: the shader mirrors
-// them for each cube.
+// them for each cube. Cubes are no instances of one cube, because browsers without a graphics
+// processor draw instances one by one.
+
+const verticesOfCube = 12, indicesOfCube = 18;
 
 const cubeVertices = `
 precision highp float;
-attribute vec3 position, normal, place, colour;
+attribute vec3 position;  // of the cube
+attribute vec4 colour;    // and the number of the corner: four of each face
 uniform mat4 modelViewMatrix, projectionMatrix;
 uniform vec3 eye;
 uniform float edge;
 varying vec3 shade;
 void main() {
-  vec3 side = sign(eye - place) + vec3(equal(eye, place));
-  vec4 seen = modelViewMatrix * vec4(place + 0.5 * edge * side * position, 1.0);
-  vec3 towards = normalize(eye - place);
+  float face = floor(colour.a / 4.0 + 0.01), number = colour.a - 4.0 * face;
+  vec3 corner = vec3(1.0, number > 0.5 && number < 2.5 ? 1.0 : -1.0, number > 1.5 ? 1.0 : -1.0);
+  vec3 normal = vec3(1.0, 0.0, 0.0);
+  if (face > 0.5) {
+    corner = corner.zxy;
+    normal = normal.zxy;
+  }
+  if (face > 1.5) {
+    corner = corner.zxy;
+    normal = normal.zxy;
+  }
+  vec3 side = sign(eye - position) + vec3(equal(eye, position));
+  vec4 seen = modelViewMatrix * vec4(position + 0.5 * edge * side * corner, 1.0);
+  vec3 towards = normalize(eye - position);
   float light = 0.45 + 0.55 * abs(dot(normal * side, normalize(towards + vec3(0.2, 0.35, 0.6))));
-  shade = colour * light;
+  shade = colour.rgb / 255.0 * light;
   gl_Position = projectionMatrix * seen;
 }`;
 const cubeColours = `
@@ -22,40 +37,46 @@ varying vec3 shade;
 void main() { gl_FragColor = vec4(shade, 1.0); }`;
 
 class Cubes {
-  constructor(most, edge) {
-    this.places = new Float32Array(3 * most);
-    this.colours = new Uint8Array(3 * most);
+  constructor(edge) {
     this.edge = edge;
-    const corners = [], normals = [], indices = [];
-    for (let axis = 0; axis < 3; ++axis)
-      for (const [a, b] of [[-1, -1], [1, -1], [1, 1], [-1, 1]]) {
-        const corner = [1, 1, 1], normal = [0, 0, 0];
-        corner[(axis + 1) % 3] = a;
-        corner[(axis + 2) % 3] = b;
-        normal[axis] = 1;
-        corners.push(...corner);
-        normals.push(...normal);
-      }
-    for (let face = 0; face < 3; ++face) indices.push(...[0, 1, 2, 0, 2, 3].map(n => 4 * face + n));
-    const geometry = this.geometry = new THREE.InstancedBufferGeometry();
-    geometry.setIndex(indices);
-    geometry.setAttribute("position", new THREE.Float32BufferAttribute(corners, 3));
-    geometry.setAttribute("normal", new THREE.Float32BufferAttribute(normals, 3));
-    geometry.setAttribute("place", new THREE.InstancedBufferAttribute(this.places, 3));
-    geometry.setAttribute("colour", new THREE.InstancedBufferAttribute(this.colours, 3, true));
+    this.room = -1;  // number of cubes for which there is memory
+    this.geometry = new THREE.BufferGeometry();
     this.material = new THREE.RawShaderMaterial({
       vertexShader: cubeVertices, fragmentShader: cubeColours, side: THREE.DoubleSide,
       uniforms: {eye: {value: new THREE.Vector3()}, edge: {value: edge}}});
-    this.mesh = new THREE.Mesh(geometry, this.material);
+    this.mesh = new THREE.Mesh(this.geometry, this.material);
     this.mesh.frustumCulled = false;
   }
 
-  // Draws the first `count` places with their colours.
-  show(count) {
-    this.count = count;
-    this.geometry.maxInstancedCount = count;
+  // Draws the first `count` cubes, given their places, m, and colours, three numbers each.
+  show(count, places, colours) {
+    [this.count, this.places] = [count, places];
+    if (!(count <= this.room)) this.makeRoom(Math.ceil(1.2 * count));
+    const {position, colour} = this.geometry.attributes;
+    for (let vertex = 0; vertex < verticesOfCube * count; ++vertex) {
+      const from = 3 * Math.floor(vertex / verticesOfCube);
+      for (let part = 0; part < 3; ++part) {
+        position.array[3 * vertex + part] = places[from + part];
+        colour.array[4 * vertex + part] = colours[from + part];
+      }
+    }
+    this.geometry.setDrawRange(0, indicesOfCube * count);
     this.mesh.visible = count > 0;
-    this.geometry.attributes.place.needsUpdate = this.geometry.attributes.colour.needsUpdate = true;
+    position.needsUpdate = colour.needsUpdate = true;
+  }
+
+  // Makes room for so many cubes. The fourth number of a colour is the number of the corner.
+  makeRoom(count) {
+    this.room = count;
+    const indices = new Uint32Array(indicesOfCube * count), colours = new Uint8Array(4 * verticesOfCube * count);
+    for (let vertex = 0; vertex < verticesOfCube * count; ++vertex) colours[4 * vertex + 3] = vertex % verticesOfCube;
+    const corners = [0, 1, 2, 0, 2, 3];  // of the two triangles of a face
+    for (let n = 0; n < indices.length; ++n) indices[n] = 4 * Math.floor(n / 6) + corners[n % 6];
+    this.geometry.dispose();
+    this.geometry.setIndex(new THREE.BufferAttribute(indices, 1));
+    this.geometry.setAttribute(
+      "position", new THREE.BufferAttribute(new Float32Array(3 * verticesOfCube * count), 3));
+    this.geometry.setAttribute("colour", new THREE.BufferAttribute(colours, 4));
   }
 
   // The number of the nearest cube that a ray meets, among those drawn; -1 if it meets none.

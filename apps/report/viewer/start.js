@@ -14,13 +14,14 @@ function start() {
   const place = document.getElementById("viewer-place");
   const data = readData(), quantities = quantitiesOf(data);
   data.rest = data.reference.map(array => valuesOf(data, array));
+  data.neighbours = neighboursOf(data);
   const middle = data.reference.map(({min, max}) => (min + max) / 2);
   const radius = Math.hypot(...data.reference.map(({min, max}) => (max - min) / 2 + data.spacing / 2));
   const settings = {frame: data.frames.length - 1, quantity: quantities[0], axis: -1, cut: 0, hide: false,
                     factor: clearFactor(data, quantities, radius)};
 
   const canvas = element("canvas", {class: "viewer-canvas"});
-  const cubes = new Cubes(data.particles, data.spacing), scene = new THREE.Scene();
+  const cubes = new Cubes(data.spacing), scene = new THREE.Scene();
   let renderer = null;
   try {
     renderer = new THREE.WebGLRenderer({canvas, alpha: true, antialias: true, preserveDrawingBuffer: true});
@@ -48,8 +49,9 @@ function start() {
 
   let shown = [], picked = -1;
   const changed = () => {
-    shown = fillCubes(data, settings, cubes);
-    count.textContent = `${shown.length} of ${data.particles} particles are shown.`;
+    const filled = fillCubes(data, settings, cubes);
+    shown = filled.shown;
+    count.textContent = `${filled.count} of ${data.particles} particles are shown.`;
     legend.show(settings.quantity);
     showParticle(data, settings, quantities, picked, details);
     drawSoon();
