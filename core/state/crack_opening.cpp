@@ -61,10 +61,11 @@ double DamageField::opening(std::uint32_t number) const {
   std::size_t count = 0;
   for (const DamageSpring& spring : record.springs()) {
     if (!spring.present || !(spring.handed_over || records_.exists(record, spring))) continue;
+    const Vec3 rest = records_.direction(spring).rest;
     const Block &here = blocks_[record.block], &there = blocks_[spring.block];
     Line& line = all[count++];
     for (int c = 0; c < 3; ++c) {
-      line.rest[c] = spring.rest[static_cast<std::size_t>(c)];
+      line.rest[c] = rest[static_cast<std::size_t>(c)];
       line.present[c] =
           line.rest[c] + (there.displacement[c][spring.index] - here.displacement[c][record.index]);
     }

@@ -6,10 +6,12 @@
 namespace hyperlattice {
 
 CrackSurface DamageField::surface() const {
-  CrackSurface found;
-  for (const std::uint32_t number : records_.order()) {
+  const std::span<const std::uint32_t> order = records_.order();
+  std::vector<CrackSurface> parts(order.size());
+  records_.for_indices(order.size(), [&](std::size_t n) {
+    const std::uint32_t number = order[n];
     const DamageRecord& record = records_[number];
-    if (record.material == nullptr) continue;
+    if (record.material == nullptr) return;
     const double d = records_.damage(number),
                  in_spacings = record.material->length / model_.body.grid.spacing;
     double squares = 0;
@@ -19,8 +21,12 @@ CrackSurface DamageField::surface() const {
     }
     const double energy = record.volume * record.material->energy_unit() *
                           (d - d * d / 2 + in_spacings * in_spacings * squares / 4);
-    found.energy += energy;
-    found.area += energy / record.material->corrected;
+    parts[n] = {energy, energy / record.material->corrected};
+  });
+  CrackSurface found;
+  for (const CrackSurface& part : parts) {
+    found.energy += part.energy;
+    found.area += part.area;
   }
   return found;
 }

@@ -37,8 +37,8 @@ DamageRecords::Kept DamageRecords::kept(std::uint32_t number) const {
             record.height,
             record.alpha_factor,
             record.crack_time,
-            record.marked,
-            record.rests_until,
+            notes_[number].marked,
+            notes_[number].rests_until,
             0,
             0,
             {},
@@ -61,8 +61,8 @@ void DamageRecords::restore(const Kept& kept) {
   record.height = kept.height;
   record.alpha_factor = kept.alpha_factor;
   record.crack_time = kept.crack_time;
-  record.marked = kept.marked;
-  record.rests_until = kept.rests_until;
+  notes_[number].marked = kept.marked;
+  notes_[number].rests_until = kept.rests_until;
   for (std::size_t s = 0; s < record.count; ++s) {
     DamageSpring& spring = record.all[s];
     spring.present = (kept.present >> s & 1U) != 0;
@@ -80,7 +80,7 @@ void DamageRecords::archive(Archive& archive) {
   }
   archive(all);
   if (archive.restores()) {
-    remove_if([](const DamageRecord&) { return true; });
+    remove_if([](std::uint32_t) { return true; });
     std::vector<Particle> particles;
     particles.reserve(all.size());
     for (const Kept& one : all) particles.push_back(one.particle);

@@ -95,7 +95,7 @@ SettledDamage DamageField::settle(const DamageBounds& bounds) {
     damage[number] = settled_[number] + part * change;
     if (damage[number] >= 1 - 1e-4) damage[number] = 1;
     records_.set_damage(number, damage[number]);
-    records_[number].marked = clock_.steps();
+    records_.note(number).marked = clock_.steps();
   }
   settled_ = std::move(damage);
   found.springs = soft_springs();
@@ -108,7 +108,7 @@ SettledDamage DamageField::settle(const DamageBounds& bounds) {
 void DamageField::accept_search(double time) {
   if (settled_.empty()) return;
   for (const std::uint32_t number : records_.order()) {
-    records_[number].rests_until = 0;
+    records_.note(number).rests_until = 0;
     records_[number].rate = 0;
     note_elongations(number);
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace hyperlattice {
 
@@ -48,20 +49,45 @@ struct DamageField::Motion {
   double height = 0;
 };
 
-DamageField::Motion DamageField::motion_of(const Block& block, std::uint64_t index) const {
+inline DamageField::Motion DamageField::motion_of(const Block& block, std::uint64_t index) const {
   return {
       {block.displacement[0][index], block.displacement[1][index], block.displacement[2][index]},
       model_.degrees_of_freedom == 4 ? block.displacement[3][index] : 0.0};
 }
 
+inline double DamageField::elongation(const DamageDirection& direction, std::size_t cross,
+                                      const Motion& here, const Motion& there) const {
+  const Vec3 d = there.moved - here.moved;
+  const double rise = cross == 0 ? there.height - here.height : there.height + here.height;
+  const double twice = cross == 0 ? 0 : 2 * model_.body.grid.membrane_distance;
+  const double growth = dot(d, 2 * direction.rest + d) + rise * (twice + rise),
+               length = direction.rest_length[cross];
+  return growth / (SpringProperties::present_length(length, growth) + length);
+}
+
 void DamageField::evaluate() {
   is_whole_ = is_whole_ && blocks_.ranks().is_alone();
   compute_cells(Part::all);
-  records_.for_each(records_.mine(), [this](std::uint32_t record) { compute(record); });
-  for (const std::uint32_t number : records_.mine()) {
-    DamageRecord& record = records_[number];
-    blocks_[record.block].fracture_work[record.row] += record.dissipated;
-    record.dissipated = 0;
+  records_.for_pieces(records_.mine(),
+                      [this](std::span<const std::uint32_t> records) { compute(records); });
+  count_dissipation();
+}
+
+void DamageField::compute(std::span<const std::uint32_t> records) {
+  for (std::size_t n = 0; n < records.size(); ++n) {
+    if (n + 1 < records.size() && !rests(records[n + 1])) records_.prefetch(records[n + 1]);
+    compute(records[n]);
+  }
+}
+
+/// Moves what the last step dissipated from the records to their rows.
+void DamageField::count_dissipation() {
+  const std::span<const std::uint32_t> order = records_.order();
+  for (const DamageRecords::RowOfRecords& row : records_.rows()) {
+    if (!blocks_.is_mine(blocks_[row.block])) continue;
+    double& work = blocks_[row.block].fracture_work[row.row];
+    for (const std::uint32_t number : order.subspan(row.begin, row.end - row.begin))
+      work += std::exchange(records_.note(number).dissipated, 0);
   }
   forward_ = 0;
 }
@@ -78,37 +104,42 @@ void DamageField::evaluate() {
 /// step the force is the change of the energy with the new factor over the change of elongation
 /// (statics/soft_springs.cpp): without numerical damping D = 1/2 (f_n - f_{n+1}) k u_n^2.
 void DamageField::compute(std::uint32_t number, Part part) {
-  DamageRecord& record = records_[number];
   const bool whole = part == Part::all;
-  if (whole && rests(record)) return;
+  if (whole && rests(number)) return;
+  DamageRecord& record = records_[number];
+  double dissipated = 0;
   const Motion here = motion_of(blocks_[record.block], record.index);
   const double own = records_.remaining(number), delta = model_.body.grid.membrane_distance;
   const std::size_t kinds = model_.springs.choice.membrane == KernelChoice::Membrane::none ? 1 : 2;
-  if (whole) record.force = {}, record.stored = record.dissipated = 0;
+  if (whole) record.force = {}, record.stored = 0;
+  // In a step nothing drives damage that is 1.
+  const bool is_driven = record.material != nullptr && (!whole || records_.damage(number) < 1);
   Symmetric virial{}, of_heights{};
   double spread = 0;
   for (DamageSpring& spring : record.springs()) {
-    spread += spring.spread * (records_.damage_of(spring.to) - records_.damage(number));
+    if (is_driven)
+      spread += spring.spread * (records_.damage_of(spring.to) - records_.damage(number));
     if (!spring.present) continue;
     if (!spring.handed_over && !records_.exists(record, spring)) {
       spring.present = false;
       continue;
     }
     const Motion there = motion_of(blocks_[spring.block], spring.index);
-    const Vec3 r = spring.rest + (there.moved - here.moved);
+    const DamageDirection& direction = records_.direction(spring);
+    const Vec3 r = direction.rest + (there.moved - here.moved);
     const double other = records_.remaining_of(spring.to), factor = in_series(own, other),
                  share = own + other > 0 ? 2 * other / (own + other) : 1;  // f over own omega
     double pull_of_virial = 0;
     for (std::size_t cross = 0; cross < kinds; ++cross) {
-      const double u = elongation(spring, cross, here, there),
-                   over_length = spring.stiffness[cross] * u / (spring.rest_length[cross] + u);
+      const double u = elongation(direction, cross, here, there),
+                   over_length = spring.stiffness[cross] * u / (direction.rest_length[cross] + u);
       const bool degrades = cross == 1 || u > 0;
       pull_of_virial += (degrades ? share : 1) * over_length;
       if (record.correction && cross == 1) {
-        const double total = there.height + here.height, length = spring.rest_length[1] + u;
+        const double total = there.height + here.height, length = direction.rest_length[1] + u;
         add_virial(of_heights,
                    share * spring.stiffness[1] * total * (2 * delta + total) /
-                       ((length + spring.rest_length[1]) * length),
+                       ((length + direction.rest_length[1]) * length),
                    r);
       }
       if (!whole) continue;
@@ -121,28 +152,29 @@ void DamageField::compute(std::uint32_t number, Part part) {
         record.force[3] += cross == 0 ? pull * (there.height - here.height)
                                       : -pull * (delta + (there.height + here.height));
         record.stored += 0.25 * spring.stiffness[cross] * f * u * u;
-        record.dissipated += 0.5 * spring.stiffness[cross] *
-                             lost({spring.factor[cross], spring.elongation[cross]}, {f, u},
-                                  [&](double at) { return cross == 1 || at > 0 ? factor : 1; });
+        dissipated += 0.5 * spring.stiffness[cross] *
+                      lost({spring.factor[cross], spring.elongation[cross]}, {f, u},
+                           [&](double at) { return cross == 1 || at > 0 ? factor : 1; });
       }
       spring.elongation[cross] = u;
       spring.factor[cross] = f;
     }
-    add_virial(virial, pull_of_virial, r);
+    if (is_driven) add_virial(virial, pull_of_virial, r);
   }
   if (whole &&
       record.alpha > 0) {  // the kernel has computed the whole spring: 2 alpha s, alpha s^2
     const double f = alpha_factor(own);
     record.force[3] += 2 * (1 - f) * record.alpha * here.height;
     record.stored -= (1 - f) * record.alpha * here.height * here.height;
-    record.dissipated +=
+    dissipated +=
         2 * record.alpha *
         lost({record.alpha_factor, record.height}, {f, here.height}, [&](double) { return f; });
     record.height = here.height;
     record.alpha_factor = f;
   }
+  if (whole) records_.note(number).dissipated = dissipated;
   const double tension = record.cells.share > 0 ? add_cells(number, part) : 0;
-  if (record.material == nullptr) return;
+  if (!is_driven) return;
   for (double& component : virial) component /= 2 * record.volume;
   for (double& component : of_heights) component /= 2 * record.volume;
   record.stress = record.correction ? corrected(virial, of_heights, *record.correction) : virial;
@@ -151,37 +183,42 @@ void DamageField::compute(std::uint32_t number, Part part) {
   record.spread = in_spacings * in_spacings * spread;
 }
 
-double DamageField::elongation(const DamageSpring& spring, std::size_t cross, const Motion& here,
-                               const Motion& there) const {
-  const Vec3 d = there.moved - here.moved;
-  const double rise = cross == 0 ? there.height - here.height : there.height + here.height;
-  const double twice = cross == 0 ? 0 : 2 * model_.body.grid.membrane_distance;
-  const double growth = dot(d, 2 * spring.rest + d) + rise * (twice + rise),
-               length = spring.rest_length[cross];
-  return growth / (SpringProperties::present_length(length, growth) + length);
-}
-
 void DamageField::update(double time_step) {
-  evaluate();
+  is_whole_ = is_whole_ && blocks_.ranks().is_alone();
+  compute_cells(Part::all);
   next_.resize(records_.numbers());
-  records_.for_pieces(records_.mine(),
-                      [&](std::span<const std::uint32_t> records) { grow(records, time_step); });
+  // Growth follows while the caches have the records. It changes nothing that others compute.
+  records_.for_pieces(records_.mine(), [&](std::span<const std::uint32_t> records) {
+    compute(records);
+    grow(records, time_step);
+  });
+  count_dissipation();
   share_growth();
   set_damages(next_, clock_.time());
 }
 
 /// Sets the damage of all records at a time, s, and notes what follows from it.
 void DamageField::set_damages(const std::vector<double>& damages, double time) {
-  ended_.clear();
-  std::vector<std::uint32_t> damaged;
-  for (const std::uint32_t record : records_.order()) {
+  enum Event : std::uint8_t { first = 1, soft = 2, end = 4 };
+  const std::span<const std::uint32_t> order = records_.order();
+  std::vector<std::uint8_t> events(order.size());
+  records_.for_indices(order.size(), [&](std::size_t n) {
+    const std::uint32_t record = order[n];
     const double before = records_.damage(record), now = damages[record];
-    if (now == before) continue;
+    if (now == before) return;
     const double remained = records_.remaining(record);
     records_.grow_to(record, now, time);
-    if (before == 0) damaged.push_back(record);
-    if (remained == 1 && records_.remaining(record) < 1) soft_.push_back(record);
-    if (remained > 0 && records_.remaining(record) == 0) ended_.push_back(record);
+    const double remains = records_.remaining(record);
+    events[n] = static_cast<std::uint8_t>((before == 0 ? first : 0) |
+                                          (remained == 1 && remains < 1 ? soft : 0) |
+                                          (remained > 0 && remains == 0 ? end : 0));
+  });
+  ended_.clear();
+  std::vector<std::uint32_t> damaged;
+  for (std::size_t n = 0; n < order.size(); ++n) {
+    if ((events[n] & first) != 0) damaged.push_back(order[n]);
+    if ((events[n] & soft) != 0) soft_.push_back(order[n]);
+    if ((events[n] & end) != 0) ended_.push_back(order[n]);
   }
   surround(damaged);
   note_gone();
@@ -193,8 +230,8 @@ void DamageField::grow(std::span<const std::uint32_t> records, double time_step)
   driven.reserve(records.size());
   for (const std::uint32_t number : records) {
     const double damage = next_[number] = records_.damage(number);
-    const DamageRecord& record = records_[number];
-    if (record.material != nullptr && damage < 1 && !rests(record)) driven.push_back(number);
+    if (damage < 1 && !rests(number) && records_[number].material != nullptr)
+      driven.push_back(number);
   }
   if (driven.empty()) return;
   std::vector<double> ratios;
@@ -217,7 +254,7 @@ void DamageField::grow(std::span<const std::uint32_t> records, double time_step)
     const double damage = step.damage + time_step * record.rate;
     next_[driven[n]] = damage >= 1 - 1e-4 ? 1 : damage;
     if (damage == 0 && ratios[n] < safe_ratio && !touches_damage(record))
-      record.rests_until = clock_.steps() + steps_of_rest;
+      records_.note(driven[n]).rests_until = clock_.steps() + steps_of_rest;
   }
 }
 
@@ -289,13 +326,17 @@ void DamageField::surround(const std::vector<std::uint32_t>& damaged) {
     for_opposite(records_[number], [&](Particle corner) { neighbours.push_back(corner); });
   }
   std::vector<std::uint32_t> behind = records_.add(neighbours);
-  for (const Particle neighbour : neighbours)
-    if (rests(records_[records_.of(neighbour)])) behind.push_back(records_.of(neighbour));
-  for (const std::uint32_t number : behind) {
-    records_[number].marked = clock_.steps();
-    records_[number].rests_until = 0;
-    if (blocks_.is_mine(blocks_[records_[number].block])) note_elongations(number);
+  for (const Particle neighbour : neighbours) {
+    const std::uint32_t number = records_.of(neighbour);
+    if (!rests(number)) continue;
+    records_.note(number).rests_until = 0;
+    behind.push_back(number);
   }
+  records_.for_each(behind, [this](std::uint32_t number) {
+    DamageNote& note = records_.note(number);
+    note.marked = clock_.steps();
+    if (blocks_.is_mine(blocks_[note.block])) note_elongations(number);
+  });
 }
 
 /// Keeps the elongations of the present state for the energy that the next one dissipates.
@@ -306,14 +347,8 @@ void DamageField::note_elongations(std::uint32_t number) {
   record.height = here.height;
   for (DamageSpring& spring : record.springs())
     for (std::size_t cross = 0; cross < kinds; ++cross)
-      spring.elongation[cross] =
-          elongation(spring, cross, here, motion_of(blocks_[spring.block], spring.index));
-}
-
-/// Returns whether the particle needs no evaluation in this step: its stress was far below the
-/// surface a few steps ago, and no damage is near.
-bool DamageField::rests(const DamageRecord& record) const {
-  return clock_.steps() < record.rests_until;
+      spring.elongation[cross] = elongation(records_.direction(spring), cross, here,
+                                            motion_of(blocks_[spring.block], spring.index));
 }
 
 bool DamageField::touches_damage(const DamageRecord& record) const {
@@ -357,16 +392,18 @@ void DamageField::follow_noted() {
   }
   if (!noted.empty()) {
     records_.add(noted);
-    for (const Particle particle : noted) records_[records_.of(particle)].marked = clock_.steps();
+    for (const Particle particle : noted)
+      records_.note(records_.of(particle)).marked = clock_.steps();
   }
 }
 
 /// Removes the records of particles that have no damage, nor a neighbour with damage, and whose
 /// springs have been below their alarm for long.
 void DamageField::remove_idle() {
-  records_.remove_if([this](const DamageRecord& record) {
-    return !(records_.damage_of(record.particle) > 0) &&
-           record.marked + steps_followed <= clock_.steps() && !touches_damage(record);
+  records_.remove_if([this](std::uint32_t number) {
+    return !(records_.damage(number) > 0) &&
+           records_.note(number).marked + steps_followed <= clock_.steps() &&
+           !touches_damage(records_[number]);
   });
 }
 

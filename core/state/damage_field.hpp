@@ -116,7 +116,7 @@ class DamageField {
  private:
   struct Motion;
   Motion motion_of(const Block& block, std::uint64_t index) const;
-  double elongation(const DamageSpring& spring, std::size_t cross, const Motion& here,
+  double elongation(const DamageDirection& direction, std::size_t cross, const Motion& here,
                     const Motion& there) const;
   /// What remains of a spring or cell, and its elongation.
   struct Softened {
@@ -139,6 +139,8 @@ class DamageField {
   /// What compute() computes: all, or the stress alone, which leaves the energies as they are.
   enum class Part { all, stress };
   void compute(std::uint32_t number, Part part = Part::all);
+  void compute(std::span<const std::uint32_t> records);
+  void count_dissipation();
   // soft_cells.cpp
   void compute_cells(Part part);
   void compute(DamageCell& cell, Part part) const;
@@ -169,7 +171,11 @@ class DamageField {
   void surround(const std::vector<std::uint32_t>& damaged);
   void remove_idle();
   void note(Block& block, Particle particle) const;
-  bool rests(const DamageRecord& record) const;
+  /// Returns whether the particle needs no evaluation in this step: its stress was far below the
+  /// surface a few steps ago, and no damage is near.
+  bool rests(std::uint32_t number) const {
+    return clock_.steps() < records_.note(number).rests_until;
+  }
   bool rests(const DamageCell& cell) const;
   bool touches_damage(const DamageRecord& record) const;
   double opening(std::uint32_t number) const;

@@ -20,7 +20,7 @@ constexpr std::uint64_t steps_between_watches = 4;
 void DamageField::note(Block& block, Particle particle) const {
   const std::uint32_t record = records_.of(particle);
   if (record != DamageRecords::none &&
-      records_[record].marked + steps_between_notes > clock_.steps())
+      records_.note(record).marked + steps_between_notes > clock_.steps())
     return;
   if (records_.has_field(particle)) block.noted.push_back(particle);
 }

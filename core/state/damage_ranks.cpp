@@ -21,7 +21,7 @@ void DamageField::share_growth() {
     if (rank == ranks.rank())
       std::transform(of_rank.begin(), of_rank.end(), all.begin(), [this](std::uint32_t number) {
         const DamageRecord& record = records_[number];
-        return Growth{next_[number], record.rate, record.lag, record.rests_until};
+        return Growth{next_[number], record.rate, record.lag, records_.note(number).rests_until};
       });
     ranks.spread(rank, std::as_writable_bytes(std::span(all)));
     for (std::size_t n = 0; n < all.size(); ++n) {
@@ -29,7 +29,7 @@ void DamageField::share_growth() {
       next_[of_rank[n]] = all[n].damage;
       record.rate = all[n].rate;
       record.lag = all[n].lag;
-      record.rests_until = all[n].rests_until;
+      records_.note(of_rank[n]).rests_until = all[n].rests_until;
     }
   }
 }

@@ -23,6 +23,9 @@ DamageRecords::DamageRecords(BlockSet& blocks)
   index_.assign(model_.body.particles, none);
   rows_.resize(blocks.size());
   for (const Block& block : blocks) rows_[block.number].resize(block.rows.size());
+  for (const NeighbourGeometry& to : model_.springs.neighbours)
+    for (const int sign : {-1, 1})
+      directions_.push_back({sign * to.rest, {to.rest_length, to.cross_rest_length}});
 }
 
 void DamageRecords::set_damage(std::uint32_t record, double damage) {
@@ -38,15 +41,16 @@ void DamageRecords::grow_to(std::uint32_t record, double damage, double time) {
 }
 
 std::vector<std::uint32_t> DamageRecords::add(std::vector<Particle> particles) {
+  std::erase_if(particles, [&](Particle particle) { return index_[particle] != none; });
   std::sort(particles.begin(), particles.end());
   particles.erase(std::unique(particles.begin(), particles.end()), particles.end());
   std::vector<std::uint32_t> added;
-  std::erase_if(particles, [&](Particle particle) { return index_[particle] != none; });
   added.reserve(particles.size());
   for (const Particle particle : particles) {
     if (unused_.empty()) {
       unused_.push_back(static_cast<std::uint32_t>(records_.size()));
       records_.emplace_back();
+      notes_.emplace_back();
       damages_.push_back(0);
       remaining_.push_back(1);
     }
@@ -58,51 +62,53 @@ std::vector<std::uint32_t> DamageRecords::add(std::vector<Particle> particles) {
     added.push_back(record);
   }
   if (added.empty()) return added;
-  constexpr std::size_t piece = 64;
-  blocks_.team().for_each((added.size() + piece - 1) / piece, [&](std::size_t part) {
-    for (std::size_t n = part * piece; n < std::min(added.size(), (part + 1) * piece); ++n) {
-      records_[added[n]] = {};
-      fill(records_[added[n]], particles[n]);
-    }
+  for_indices(added.size(), [&](std::size_t n) {
+    DamageRecord& record = records_[added[n]] = {};
+    fill(record, particles[n]);
+    notes_[added[n]] = {record.particle, record.block, record.row};
   });
   for (const std::uint32_t record : added)
     records_[record].cells = cells_.follow(records_[record].particle);
   const auto middle = static_cast<std::ptrdiff_t>(order_.size());
   order_.insert(order_.end(), added.begin(), added.end());
-  std::inplace_merge(order_.begin(), order_.begin() + middle, order_.end(),
-                     [this](std::uint32_t a, std::uint32_t b) {
-                       return records_[a].particle < records_[b].particle;
-                     });
+  std::inplace_merge(
+      order_.begin(), order_.begin() + middle, order_.end(),
+      [this](std::uint32_t a, std::uint32_t b) { return notes_[a].particle < notes_[b].particle; });
   find_rows();
   return added;
 }
 
 void DamageRecords::forget(std::uint32_t record) {
-  index_[records_[record].particle] = none;
+  index_[notes_[record].particle] = none;
   cells_.release(records_[record].cells);
   unused_.push_back(record);
 }
 
 /// Finds the records of each row. Rows with records go to the host, see Row::law.
 void DamageRecords::find_rows() {
-  for (Block& block : blocks_) {
-    std::vector<std::pair<std::uint32_t, std::uint32_t>>& rows = rows_[block.number];
-    for (std::size_t r = 0; r < rows.size(); ++r)
-      if (std::exchange(rows[r], {}).second > 0) block.rows[r].law = block.layout->rows[r].law;
+  for (const RowOfRecords& of : filled_rows_) {
+    Block& block = blocks_[of.block];
+    rows_[of.block][of.row] = {};
+    block.rows[of.row].law = block.layout->rows[of.row].law;
   }
+  filled_rows_.clear();
   for (std::uint32_t n = 0; n < order_.size(); ++n) {
-    const DamageRecord& record = records_[order_[n]];
-    auto& [begin, end] = rows_[record.block][record.row];
-    if (end == 0) begin = n;
-    end = n + 1;
-    std::int32_t& law = blocks_[record.block].rows[record.row].law;
+    const DamageNote& note = notes_[order_[n]];
+    if (filled_rows_.empty() || filled_rows_.back().block != note.block ||
+        filled_rows_.back().row != note.row)
+      filled_rows_.push_back({note.block, note.row, n, n});
+    filled_rows_.back().end = n + 1;
+  }
+  for (const RowOfRecords& of : filled_rows_) {
+    rows_[of.block][of.row] = {of.begin, of.end};
+    std::int32_t& law = blocks_[of.block].rows[of.row].law;
     if (law == 0) law = first_law_and_more;
   }
 }
 
 std::span<const std::uint32_t> DamageRecords::of_rank(int rank) const {
   const auto is_before = [this](std::uint32_t record, int of) {
-    return blocks_.owner(records_[record].block) < of;
+    return blocks_.owner(notes_[record].block) < of;
   };
   const auto begin = std::lower_bound(order_.begin(), order_.end(), rank, is_before),
              end = std::lower_bound(begin, order_.end(), rank + 1, is_before);
@@ -156,17 +162,14 @@ void DamageRecords::add_spring(DamageRecord& record, const Neighbour& to, std::u
   const Place place = blocks_.layout().place(spring.to);
   spring.block = static_cast<std::uint32_t>(place.block);
   spring.index = place.index;
-  spring.neighbour = neighbour;
+  spring.neighbour = static_cast<std::uint8_t>(neighbour);
   spring.forward = forward;
-  spring.rest = sign * of.rest;
   if (has_field(spring.to)) {
     const bool straight = to.dx * to.dx + to.dy * to.dy + to.dz * to.dz == 1;
     spring.spread = of.share / (straight ? 3 : 6);
   }
-  for (const std::size_t cross : {0U, 1U}) {
-    spring.rest_length[cross] = of.rest_length_of(cross);
+  for (const std::size_t cross : {0U, 1U})
     spring.stiffness[cross] = of.share * of.stiffness_of(cross);
-  }
   spring.present = exists(record, spring);
   record.all[record.count++] = spring;
 }
@@ -219,11 +222,6 @@ void DamageRecords::find_correction(DamageRecord& record) const {
   for (Eigen::Index n = 0; n < 6; ++n)
     found->heights[static_cast<std::size_t>(n)] = parts * whole.heights[n];
   record.correction = std::move(found);
-}
-
-bool DamageRecords::exists(const DamageRecord& record, const DamageSpring& spring) const {
-  const Block& block = blocks_[spring.forward ? record.block : spring.block];
-  return (block.alive[spring.forward ? record.index : spring.index] >> spring.neighbour & 1U) != 0;
 }
 
 void DamageRecords::clear_bit(const DamageRecord& record, const DamageSpring& spring) {

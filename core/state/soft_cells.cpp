@@ -38,12 +38,9 @@ double DamageField::factor(const DamageCell& cell) const {
 }
 
 void DamageField::compute_cells(Part part) {
-  constexpr std::size_t piece = 64;
   DamageCells& cells = records_.cells();
-  blocks_.team().for_each((cells.numbers() + piece - 1) / piece, [&](std::size_t n) {
-    for (std::size_t c = n * piece; c < std::min(cells.numbers(), (n + 1) * piece); ++c)
-      compute(cells[static_cast<std::uint32_t>(c)], part);
-  });
+  records_.for_indices(cells.numbers(),
+                       [&](std::size_t n) { compute(cells[static_cast<std::uint32_t>(n)], part); });
 }
 
 /// Computes a cell. With its extension w, U = K_v w^2 / 2, it dissipates in a step, as springs do
@@ -97,7 +94,7 @@ double DamageField::add_cells(std::uint32_t number, Part part) {
     if (part != Part::all || !cell.handed_over) continue;
     for (int c = 0; c < 3; ++c) record.force[static_cast<std::size_t>(c)] += cell.force[n][c];
     record.stored += cell.stored / 8;
-    record.dissipated += cell.dissipated / 8;
+    records_.note(number).dissipated += cell.dissipated / 8;
   }
   return tension / record.cells.share;
 }
@@ -122,7 +119,7 @@ bool DamageField::is_mine(const DamageCell& cell) const {
 bool DamageField::rests(const DamageCell& cell) const {
   return std::all_of(cell.corners.begin(), cell.corners.end(), [this](Particle corner) {
     const std::uint32_t record = records_.of(corner);
-    return record == DamageRecords::none || rests(records_[record]);
+    return record == DamageRecords::none || rests(record);
   });
 }
 

@@ -32,6 +32,7 @@ struct Bar {
   double poisson = 0.25, length = 5e-3;  ///< b, m
   int half = 13;                         ///< cells
   double pulled = 3.6e-5;
+  int load_steps = 1;
   double damage_step = 0.05;
   bool snap_back = false;
   Keys control{};  ///< options of an opening
@@ -58,7 +59,7 @@ struct Bar {
         .load("loads.fixed", {{"name", "z"}, {"on", "z_min"}, {"axes", "z"}})
         .solver("solvers.static",
                 Keys{{"end_time", 1}, {"damage_step", damage_step}, {"snap_back", snap_back}} +
-                    control);
+                    (load_steps > 1 ? Keys{{"load_steps", load_steps}} : Keys{}) + control);
     return scene.text();
   }
 };
@@ -196,6 +197,22 @@ INSTANTIATE_TEST_SUITE_P(None, BarAtRest,
                          testing::Values(CaseAtRest{0.25, 5}, CaseAtRest{0.2, 5},
                                          CaseAtRest{0.3, 5}, CaseAtRest{0.25, 10},
                                          CaseAtRest{0.2, 10}));
+
+// A crack of layers keeps some traction beyond w_c. Twice as far apart, little is left of it, and
+// the crack has taken its toughness.
+TEST(DamageAtRest, TakesItsToughnessOnceItIsWideOpen) {
+  for (const double poisson : {0.2, 0.25, 0.3}) {
+    Bar bar;
+    bar.poisson = poisson;
+    bar.half = 10;
+    bar.load_steps = 50;
+    const double area = spacing * spacing * toughness(poisson, bar.length);
+    bar.pulled = 2.4 * 2 * toughness(poisson, bar.length) / strength;
+    const EnergyBalance balance = pull(bar).balance;
+    EXPECT_NEAR(balance.dissipated_failure / area, 1, 0.02) << poisson;
+    EXPECT_LT(balance.stored / area, 0.005) << poisson;
+  }
+}
 
 // A bar longer than 2 E G / sigma^2 has no states of rest along the way at loads that grow.
 TEST(DamageAtRest, FollowsASnapBackOrRunsOn) {
