@@ -383,30 +383,6 @@ void DamageField::finish() {
   if (clock_.steps() % steps_followed == 0) remove_idle();
 }
 
-/// Makes records of the particles that were noted.
-void DamageField::follow_noted() {
-  std::vector<Particle> noted;
-  for (Block& block : blocks_) {
-    noted.insert(noted.end(), block.noted.begin(), block.noted.end());
-    block.noted.clear();
-  }
-  if (!noted.empty()) {
-    records_.add(noted);
-    for (const Particle particle : noted)
-      records_.note(records_.of(particle)).marked = clock_.steps();
-  }
-}
-
-/// Removes the records of particles that have no damage, nor a neighbour with damage, and whose
-/// springs have been below their alarm for long.
-void DamageField::remove_idle() {
-  records_.remove_if([this](std::uint32_t number) {
-    return !(records_.damage(number) > 0) &&
-           records_.note(number).marked + steps_followed <= clock_.steps() &&
-           !touches_damage(records_[number]);
-  });
-}
-
 void DamageField::copy_damage(std::vector<double>& values) const {
   for (Particle p = 0; p < values.size(); ++p)
     if (model_.cohesive[model_.kinds.material(p)].stage != nullptr)

@@ -59,4 +59,28 @@ void DamageField::watch(Block& block, double stretch, double shortening) const {
   });
 }
 
+/// Makes records of the particles that were noted.
+void DamageField::follow_noted() {
+  std::vector<Particle> noted;
+  for (Block& block : blocks_) {
+    noted.insert(noted.end(), block.noted.begin(), block.noted.end());
+    block.noted.clear();
+  }
+  if (!noted.empty()) {
+    records_.add(noted);
+    for (const Particle particle : noted)
+      records_.note(records_.of(particle)).marked = clock_.steps();
+  }
+}
+
+/// Removes the records of particles that have no damage, nor a neighbour with damage, and whose
+/// springs have been below their alarm for long.
+void DamageField::remove_idle() {
+  records_.remove_if([this](std::uint32_t number) {
+    return !(records_.damage(number) > 0) &&
+           records_.note(number).marked + steps_followed <= clock_.steps() &&
+           !touches_damage(records_[number]);
+  });
+}
+
 }  // namespace hyperlattice
