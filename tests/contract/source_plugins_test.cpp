@@ -176,6 +176,21 @@ TEST_F(SourcePlugins, FaultsOfTheSourceAreShown) {
   EXPECT_EQ(count_in_cache(".so"), 0u);
 }
 
+TEST_F(SourcePlugins, AMissingFunctionIsNamed) {
+  const auto err_of = [this](const std::string& from, const std::string& to) {
+    std::string text = criterion;
+    text.replace(text.find(from), from.size(), to);
+    write("mine.cpp", text);
+    const test::Result result = run();
+    EXPECT_EQ(result.exit_code, 2);
+    return result.err;
+  };
+  EXPECT_PRED2(says, err_of("double alarm", "double alert"),
+               "this criterion lacks the public member: double alarm(const SpringFacts&) const");
+  EXPECT_PRED2(says, err_of("double elongation) const", "double elongation)"),
+               "a function lacks const or has other arguments");
+}
+
 TEST_F(SourcePlugins, WithoutACompilerTheOutsideFails) {
   const test::Result refused = run({"CXX=no-such-compiler"});
   EXPECT_EQ(refused.exit_code, 4);

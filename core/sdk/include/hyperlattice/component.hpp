@@ -11,6 +11,7 @@
 //   HYPERLATTICE_PLUGIN("1.0") { plugin.add<Blast>(); }
 #pragma once
 
+#include <hyperlattice/missing_function.hpp>
 #include <hyperlattice/options.hpp>
 
 #define HYPERLATTICE_EXPORT __attribute__((visibility("default")))
@@ -76,9 +77,14 @@ struct PluginInfo {
 
 namespace detail {
 
-/// The family's table of functions for a component class; each family's header specialises it.
+/// The family's table of functions for a component class; each family's header specialises it. A
+/// class that no specialisation fits gets a message of the compiler, and members that keep it from
+/// more messages.
 template <class Component>
-struct FunctionsOf;
+struct FunctionsOf : MissingFunction<Component> {
+  static constexpr Family family{};
+  static constexpr int table = 0;
+};
 
 /// What the host holds of a component class; a family's header may add data to it.
 template <class Component>
