@@ -62,16 +62,45 @@ double value_of(const Instruction& instruction, double a, double b, double c) {
   return result_of(instruction, a, b, c);
 }
 
+Compiled::Compiled(const std::vector<Instruction>& code) {
+  std::vector<std::uint16_t> place(code.size());  // of each instruction in the new order
+  const auto add = [&](std::size_t n) {
+    Instruction one = code[n];
+    if (one.operation != Operation::input)
+      for (std::uint16_t* operand : {&one.a, &one.b, &one.c}) *operand = place[*operand];
+    place[n] = static_cast<std::uint16_t>(code_.size());
+    code_.push_back(one);
+  };
+  const std::size_t last = code.size() - 1;
+  for (std::size_t n = 0; n < last; ++n) {
+    if (code[n].operation != Operation::input) continue;
+    const auto same = std::find_if(code_.begin(), code_.end(),
+                                   [&](const Instruction& other) { return other.a == code[n].a; });
+    if (same == code_.end())
+      add(n);
+    else
+      place[n] = static_cast<std::uint16_t>(same - code_.begin());
+  }
+  inputs_ = code_.size();
+  for (std::size_t n = 0; n < last; ++n)
+    if (code[n].operation == Operation::constant) add(n);
+  constants_ = code_.size() - inputs_;
+  for (std::size_t n = 0; n <= last; ++n)
+    if (n == last ||
+        (code[n].operation != Operation::input && code[n].operation != Operation::constant))
+      add(n);
+}
+
 double Compiled::operator()(std::span<const double> inputs) const {
   std::array<double, most_instructions> values;  // each is set before it is used
-  for (std::size_t n = 0; n < code_.size(); ++n) {
+  std::size_t n = 0;
+  for (const Instruction& one : this->inputs()) values[n++] = inputs[one.a];
+  for (const Instruction& one : constants()) values[n++] = one.value;
+  for (; n < code_.size(); ++n) {
     const Instruction& one = code_[n];
-    if (one.operation == Operation::input)
-      values[n] = inputs[one.a];
-    else if (one.operation == Operation::constant)
-      values[n] = one.value;
-    else
-      values[n] = result_of(one, values[one.a], values[one.b], values[one.c]);
+    values[n] = one.operation == Operation::input
+                    ? inputs[one.a]
+                    : result_of(one, values[one.a], values[one.b], values[one.c]);
   }
   return values[code_.size() - 1];
 }

@@ -49,10 +49,15 @@ double value_of(const Instruction& instruction, double a, double b, double c);
 
 class Compiled {
  public:
-  /// `code`: 1 to most_instructions instructions; the last one gives the result.
-  explicit Compiled(std::vector<Instruction> code) : code_(std::move(code)) {}
+  /// `code`: 1 to most_instructions instructions; the last one gives the result. They get another
+  /// order: inputs first, each once, then constants, then the others in their order.
+  explicit Compiled(const std::vector<Instruction>& code);
 
   std::span<const Instruction> code() const { return code_; }
+  /// Returns the inputs that the expression uses, and its constants, which follow them. An
+  /// expression that is nothing but an input or a constant has it as its result alone.
+  std::span<const Instruction> inputs() const { return code().first(inputs_); }
+  std::span<const Instruction> constants() const { return code().subspan(inputs_, constants_); }
   /// Returns the value for these inputs, in the order of the names that were compiled with. It is
   /// not a number where the expression has no value.
   double operator()(std::span<const double> inputs) const;
@@ -61,6 +66,7 @@ class Compiled {
 
  private:
   std::vector<Instruction> code_;
+  std::size_t inputs_ = 0, constants_ = 0;
 };
 
 }  // namespace hyperlattice

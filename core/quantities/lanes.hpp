@@ -41,7 +41,10 @@ template <class Lanes>
 Lanes values_of(const Compiled& expression, std::span<const Lanes> inputs) {
   std::array<Lanes, most_instructions> values;  // each is set before it is used
   const std::span<const Instruction> code = expression.code();
-  for (std::size_t n = 0; n < code.size(); ++n) {
+  std::size_t n = 0;
+  for (const Instruction& one : expression.inputs()) values[n++] = inputs[one.a];
+  for (const Instruction& one : expression.constants()) values[n++] = Lanes(one.value);
+  for (; n < code.size(); ++n) {
     const Instruction& one = code[n];
     const Lanes &a = values[one.a], &b = values[one.b];
     switch (one.operation) {

@@ -22,6 +22,10 @@ struct NumberOf<Pack<Number>> {
   using Type = Number;
 };
 
+template <class Real>
+constexpr bool is_vector_of_doubles =
+    std::is_same_v<typename NumberOf<Real>::Type, double> && !std::is_same_v<Real, double>;
+
 /// Returns a number of each spring of a vector. `number`: called with one spring.
 template <class Real, class OfSpring>
 Real for_each_spring(const SpringOf<Real>& springs, const OfSpring& number) {
@@ -39,18 +43,34 @@ Real for_each_spring(const SpringOf<Real>& springs, const OfSpring& number) {
   return numbers;
 }
 
-/// Returns the forces of a vector of springs, N.
+/// Returns the forces of a vector of springs, N, which depend on no rate.
 template <template <class> class Pack>
-Pack<double> forces_of(const Compiled& force, const SpringOf<Pack<double>>& springs) {
+Pack<double> forces_of(const SpringForce& law, const SpringOf<Pack<double>>& springs) {
   using Doubles = Pack<double>;
+  const Doubles none(0.0),
+      inverse = law.has_strain ? Doubles(1.0) / springs.rest_length : none;  // divisions are slow
   const std::array<Doubles, input_count> inputs =
-      inputs_of(springs.stiffness, springs.rest_length, springs.elongation, Doubles(0.0));
-  return values_of<Doubles>(force, inputs);
+      inputs_of(springs.stiffness, springs.rest_length, inverse, springs.elongation, none);
+  return values_of<Doubles>(law.force, inputs);
+}
+
+/// Returns their energies, J, by GaussRule.
+template <template <class> class Pack>
+Pack<double> energies_of(const SpringForce& law, const SpringOf<Pack<double>>& springs) {
+  using Doubles = Pack<double>;
+  const auto force_at = [&](double part) {
+    return forces_of(law, SpringOf<Doubles>{springs.stiffness, springs.rest_length,
+                                            Doubles(part) * springs.elongation});
+  };
+  constexpr double reach = GaussRule::outer / 2;
+  const Doubles outer = force_at(0.5 - reach) + force_at(0.5 + reach);
+  return springs.elongation * (Doubles(GaussRule::weight_middle) * force_at(0.5) +
+                               Doubles(GaussRule::weight_outer) * outer);
 }
 
 /// The same for a vector of floats, as two vectors of doubles.
 template <template <class> class Pack>
-Pack<float> forces_of(const Compiled& force, const SpringOf<Pack<float>>& springs) {
+Pack<float> forces_of(const SpringForce& law, const SpringOf<Pack<float>>& springs) {
   constexpr std::size_t in_half = sizeof(Pack<double>) / sizeof(double);
   const auto half = [&](const Pack<float>& pack, std::size_t first) {
     float narrow[2 * in_half];
@@ -67,7 +87,7 @@ Pack<float> forces_of(const Compiled& force, const SpringOf<Pack<float>>& spring
                                          half(springs.rest_length, first),
                                          half(springs.elongation, first)};
     double wide[in_half];
-    const Pack<double> found = forces_of(force, doubles);
+    const Pack<double> found = forces_of(law, doubles);
     std::memcpy(wide, &found, sizeof found);
     for (std::size_t n = 0; n < in_half; ++n) forces[first + n] = static_cast<float>(wide[n]);
   }
@@ -89,11 +109,13 @@ struct ElasticExpressionLaw {
     if constexpr (std::is_same_v<Real, typename NumberOf<Real>::Type>)
       return for_each_spring(springs, [&](const auto& s) { return kept(c.number).force_at(s); });
     else
-      return forces_of(kept(c.number).force, springs);
+      return forces_of(kept(c.number), springs);
   }
   template <class Real>
   static Real energy(const hyperlattice::SpringOf<Real>& springs, const Constants& c) {
     using namespace hyperlattice::spring_expression;
+    if constexpr (is_vector_of_doubles<Real>)
+      if (kept(c.number).has_exact_rule) return energies_of(kept(c.number), springs);
     return for_each_spring(springs,
                            [&](const auto& s) { return kept(c.number).energy_since(s, 0); });
   }

@@ -39,8 +39,9 @@ class ExpressionSolid {
             "and "
             "the constants; numbers with or without a unit; the operators `+ - * / ^ < <= > >= == "
             "!= && || ?:` and the functions of loads.expression. Dimensions are checked. "
-            "The energy is integrated by Gauss's rule of three points over ways below a thousandth "
-            "of the length, and by Gauss and Kronrod's adaptive rule over longer ones")
+            "The energy is integrated by Gauss's rule of three points if the force is a polynomial "
+            "of the elongation up to the fifth degree, or over ways below a thousandth of the "
+            "length; by Gauss and Kronrod's adaptive rule otherwise")
         .restrictions(
             "the force is zero at rest and has the slope `stiffness` there, base and cross springs "
             "alike: write it with `stiffness`. A force that gives energy back when it moves in a "

@@ -2,6 +2,7 @@
 
 #include "expression.hpp"
 
+#include <quantities/degree.hpp>
 #include <quantities/derivative.hpp>
 #include <quantities/lanes.hpp>
 
@@ -24,7 +25,8 @@ constexpr std::size_t most_kept = 10'000;
 using Numbers = std::array<double, input_count>;
 
 Numbers numbers_of(const SpringState& spring) {
-  return inputs_of(spring.stiffness, spring.rest_length, spring.elongation, spring.rate);
+  return inputs_of(spring.stiffness, spring.rest_length, 1 / spring.rest_length, spring.elongation,
+                   spring.rate);
 }
 
 SpringState at_rest(SpringState spring) {
@@ -69,6 +71,21 @@ std::vector<ExpressionName> input_names() {
           {"stiffness", {0, 1, -2}, {}}, {"rest_length", {1}, {}}};
 }
 
+/// Returns whether a force is a polynomial of the elongation, for any rate, that GaussRule
+/// integrates without an error.
+bool is_low_polynomial(const Compiled& force) {
+  std::array<bool, input_count> moves{};
+  moves[elongation] = moves[strain] = true;
+  const std::optional<int> degree = degree_of(force, moves);
+  return degree && *degree <= GaussRule::exact_degree;
+}
+
+SpringForce::SpringForce(Compiled force_expression, std::optional<Compiled> energy_expression)
+    : force(std::move(force_expression)),
+      energy(std::move(energy_expression)),
+      has_strain(force.uses(strain) || force.uses(strain_rate)),
+      has_exact_rule(!energy && is_low_polynomial(force)) {}
+
 double SpringForce::force_at(const SpringState& spring) const { return force(numbers_of(spring)); }
 
 double SpringForce::tangent_at(const SpringState& spring) const {
@@ -95,21 +112,21 @@ SpringForce::Advance SpringForce::advance(const SpringState& spring, double from
     return {(*energy)(numbers_of(at_rest(spring))) - (*energy)(numbers_of(at_rest(before))),
             force_at(spring)};
   }
-  if (std::abs(way) <= short_way * spring.rest_length) return advance_a_little(spring, from);
+  if (has_exact_rule || std::abs(way) <= short_way * spring.rest_length)
+    return advance_by_rule(spring, from);
   return {integral(spring, from), force_at(spring)};
 }
 
-/// Gauss's rule of three points, which is exact for polynomials up to the fifth power. The fourth
-/// lane has the force at the end.
-SpringForce::Advance SpringForce::advance_a_little(const SpringState& spring, double from) const {
-  constexpr double outer = 0.774596669241483377, weight_outer = 5.0 / 18, weight_middle = 4.0 / 9;
+/// The fourth lane has the force at the end.
+SpringForce::Advance SpringForce::advance_by_rule(const SpringState& spring, double from) const {
   const double to = spring.elongation, way = to - from, middle = from + way / 2,
-               reach = outer * way / 2;
+               reach = GaussRule::outer * way / 2;
   const std::array<Four, input_count> inputs =
-      inputs_of(Four(spring.stiffness), Four(spring.rest_length),
+      inputs_of(Four(spring.stiffness), Four(spring.rest_length), Four(1 / spring.rest_length),
                 Four(middle, middle - reach, middle + reach, to), Four(0, 0, 0, spring.rate));
   const auto [at_middle, below, above, at_end] = values_of<Four>(force, inputs).lane;
-  return {way * (weight_middle * at_middle + weight_outer * (below + above)), at_end};
+  return {way * (GaussRule::weight_middle * at_middle + GaussRule::weight_outer * (below + above)),
+          at_end};
 }
 
 /// Gauss and Kronrod's rule of 15 points, in halves where the force bends. Not a number if an end

@@ -23,22 +23,35 @@ enum Input : std::size_t {
   input_count
 };
 
-/// Returns the inputs of a spring, or of a vector of springs. The product with the inverse of the
-/// rest length, which does not change, is faster than a division.
+/// Returns the inputs of a spring, or of a vector of springs. `inverse`: of the rest length. The
+/// product with it is faster than a division.
 template <class Real>
 std::array<Real, input_count> inputs_of(const Real& stiffness, const Real& length,
-                                        const Real& elongated, const Real& rate_of_it) {
-  const Real inverse = Real(1.0) / length;
+                                        const Real& inverse, const Real& elongated,
+                                        const Real& rate_of_it) {
   return {elongated, elongated * inverse, rate_of_it, rate_of_it * inverse, stiffness, length};
 }
+
+/// Gauss's rule of three points: places from the middle of the interval, in half lengths, and
+/// weights, whose sum is 1.
+struct GaussRule {
+  static constexpr double outer = 0.774596669241483377;
+  static constexpr double weight_outer = 5.0 / 18, weight_middle = 4.0 / 9;
+  static constexpr int exact_degree = 5;  ///< of polynomials
+};
 
 /// Returns the names of these inputs with their dimensions.
 std::vector<ExpressionName> input_names();
 
 /// The expressions of a material.
 struct SpringForce {
+  SpringForce(Compiled force_expression, std::optional<Compiled> energy_expression);
+
   Compiled force;                  ///< N
   std::optional<Compiled> energy;  ///< J; without it, the energy is the integral of the force
+  bool has_strain;                 ///< the force depends on the strain or its rate
+  /// The energy is the integral of the force, and GaussRule has no error over any way.
+  bool has_exact_rule;
 
   double force_at(const SpringState& spring) const;
   /// Returns the derivative of the force by the elongation, at a constant rate, N/m.
@@ -61,7 +74,7 @@ struct SpringForce {
   bool has_rate() const { return force.uses(rate) || force.uses(strain_rate); }
 
  private:
-  Advance advance_a_little(const SpringState& spring, double from) const;
+  Advance advance_by_rule(const SpringState& spring, double from) const;
   double integral(const SpringState& spring, double from) const;
 };
 

@@ -1,4 +1,5 @@
 // Expressions of quantities: values, units, dimensions, and the reasons of refusals.
+#include <quantities/degree.hpp>
 #include <quantities/expression.hpp>
 #include <quantities/lanes.hpp>
 
@@ -172,6 +173,23 @@ TEST(Expression, LanesHaveTheBitsOfOneEvaluation) {
       EXPECT_EQ(both.lane[n], (*found.compiled)(one)) << text;
     }
   }
+}
+
+TEST(Expression, TheDegreeIsThatOfThePolynomial) {
+  const auto degree = [](std::string_view text) {
+    const bool is_variable[] = {true, true, false};
+    return degree_of(*of_spring(text).compiled, is_variable).value_or(-1);
+  };
+  EXPECT_EQ(degree("2"), 0);
+  EXPECT_EQ(degree("strain"), 1);
+  EXPECT_EQ(degree("rate / 1 m/s + sqrt(rate / 1 m/s)"), 0);
+  EXPECT_EQ(degree("strain * (1 - 20 * strain + 400 * strain^2)"), 3);
+  EXPECT_EQ(degree("-strain^4 * elongation / 2 m - 1"), 5);
+  EXPECT_EQ(degree("(strain^2)^3"), 6);
+  EXPECT_EQ(degree("rate > 0 m/s ? 1 : 2"), 0);
+  for (const char* text : {"1 / strain", "strain^0.5", "strain^-1", "2^strain", "exp(strain)",
+                           "strain > 0 ? strain : 0", "max(strain, 0)", "abs(strain)"})
+    EXPECT_EQ(degree(text), -1) << text;
 }
 
 /// The same sum in two ways: by the program, and by C++.
