@@ -31,11 +31,17 @@ KernelSet kernels_of_law(const KernelChoice& choice);
 
 namespace detail {
 using MakeKernels = KernelSet(const KernelChoice& choice);
+/// Returns `kernels` with the measurements of others.
+inline KernelSet measured_by(const KernelSet& others, KernelSet kernels) {
+  kernels.measure = others.measure;
+  kernels.measure_row = others.measure_row;
+  return kernels;
+}
 inline KernelSet widest_kernels(const KernelChoice& choice, MakeKernels& baseline,
                                 MakeKernels& avx2, MakeKernels& avx512) {
   switch (processor_instructions()) {
     case Instructions::avx512:
-      return avx512(choice);
+      return measured_by(avx2(choice), avx512(choice));
     case Instructions::avx2:
       return avx2(choice);
     case Instructions::baseline:
