@@ -67,7 +67,7 @@ function(hyperlattice_add_material type)
       file(CONFIGURE OUTPUT ${file} @ONLY CONTENT
 "// Generated: the kernels of @law@ for the instruction set '@variant@'.
 #define HYPERLATTICE_INSTRUCTIONS @variant@
-#include <hyperlattice/kernels/sweep.hpp>
+#include <hyperlattice/kernels/law_kernels.hpp>
 #include \"@header@\"
 @define@(@law@)
 ")

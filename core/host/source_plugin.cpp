@@ -227,7 +227,7 @@ class Compilation {
       const fs::path file = folder / fmt::format("kernels.{}.cpp", instructions);
       std::ofstream(file) << fmt::format(
           "#define HYPERLATTICE_INSTRUCTIONS {}\n"
-          "#include <hyperlattice/kernels/sweep.hpp>\n"
+          "#include <hyperlattice/kernels/law_kernels.hpp>\n"
           "#include <hyperlattice/boundary.hpp>\n"
           "#undef HYPERLATTICE_PLUGIN\n"
           "#define HYPERLATTICE_PLUGIN(version) \\\n"

@@ -2,7 +2,7 @@
 // instruction set only, to save time of compilation.
 #define HYPERLATTICE_INSTRUCTIONS baseline
 #include <hyperlattice/elastic_solid.hpp>
-#include <hyperlattice/kernels/sweep.hpp>
+#include <hyperlattice/kernels/law_kernels.hpp>
 
 struct WrongLaw {
   struct Constants {

@@ -4,7 +4,7 @@
 // kernels are for one instruction set, to be compiled soon.
 #define HYPERLATTICE_INSTRUCTIONS baseline
 #include <hyperlattice/elastic_solid.hpp>
-#include <hyperlattice/kernels/sweep.hpp>
+#include <hyperlattice/kernels/law_kernels.hpp>
 
 struct SlippingLaw {
   struct Constants {
