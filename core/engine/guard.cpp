@@ -9,12 +9,32 @@
 namespace hyperlattice {
 
 Guard::Guard(const Model& model, const Simulation& simulation)
-    : model_(model), simulation_(simulation), shortest_(infinity) {
+    : model_(model), simulation_(simulation), shortest_(infinity), momentum_(model) {
   for (const NeighbourGeometry& neighbour : model.springs.neighbours)
     shortest_ = std::min(shortest_, neighbour.rest_length);
   const Listed& list = model.body.listed;
   for (const ListedSpring& spring : list.springs)
     shortest_ = std::min(shortest_, norm(list.positions[spring.b] - list.positions[spring.a]));
+}
+
+void Guard::start(const PlannedStage& stage, bool is_resumed) {
+  stage_ = &stage;
+  has_warned_ = has_warned_of_step_ = false;
+  looked_ = simulation_.steps();
+  error_looked_ = 0;
+  if (is_resumed) return momentum_.go_on(damps());
+  growth_ = {};
+  momentum_.start(damps());
+}
+
+/// Returns whether the stage takes momentum from the body in another way than by forces of loads.
+bool Guard::damps() const {
+  return stage_->plan.at_rest || stage_->plan.damping > 0 || stage_->mass_scaling.has_value();
+}
+
+void Guard::archive(Archive& archive) {
+  archive(growth_);
+  momentum_.archive(archive);
 }
 
 double Guard::critical() const {
@@ -62,6 +82,49 @@ std::string Guard::early_warning(const EnergyBalance& balance, double time_step)
   return fmt::format(
       "the error of the energy balance is {:.2g} of the largest energy at {:.6g} s. {}",
       std::abs(balance.relative_error()), simulation_.time(), cause);
+}
+
+void Guard::check_growth(const EnergyBalance& balance, const std::vector<double>& work,
+                         double time_step) {
+  const double limit = stage_->stage->growth_limit, ratio = time_step / critical();
+  if (!growth_.runs_away(balance, work, ratio < 1 ? ratio : 0, limit)) return;
+  fail(fmt::format("energy grows from nothing: it is {:.3g} times all that the start and the loads "
+                   "have put in, and growth_limit is {:.3g}. A motion is unstable: the time step "
+                   "is too long for some spring or load as it is now, or a law or a load of a "
+                   "plugin is wrong. Take a shorter time_step",
+                   growth_.ratio(), limit),
+       time_step);
+}
+
+void Guard::check_momentum(const EnergyBalance& balance, double time_step) {
+  const double tolerance = stage_->stage->momentum_tolerance;
+  if (!(tolerance > 0)) return;
+  const double error = momentum_.error_of(balance, simulation_.time());
+  if (error > tolerance)
+    fail(fmt::format("momentum is lost: its error is {:.3g} of the gross momentum, and "
+                     "momentum_tolerance is {:.3g}. Forces of springs or loads do not act and "
+                     "react, or are too small for the digits of the velocities: check laws and "
+                     "loads of plugins, and take double precision",
+                     error, tolerance),
+         time_step);
+}
+
+std::string Guard::step_warning(const EnergyBalance& balance, double time_step) {
+  // A look takes about a hundred steps. An error that grows is a sign that steps become too long.
+  constexpr std::uint64_t every = 10000;
+  constexpr double noticeable = 1e-4, grown = 10;
+  const double error = std::abs(balance.relative_error());
+  const bool is_due = simulation_.steps() >= looked_ + every ||
+                      (error > noticeable && error > grown * error_looked_);
+  if (has_warned_of_step_ || !(time_step < critical()) || !is_due) return {};
+  looked_ = simulation_.steps();
+  error_looked_ = error;
+  const SpringExtremes state = spring_extremes(model_, simulation_, time_step);
+  if (!(time_step > state.critical * critical())) return {};
+  has_warned_of_step_ = true;
+  return fmt::format("at {:.6g} s the time step, {:.4g} s, is longer than springs now allow. {}",
+                     simulation_.time(), time_step,
+                     likely_cause(model_, state, time_step, critical()));
 }
 
 void Guard::check_finite(const EnergyBalance& balance, double time_step) const {

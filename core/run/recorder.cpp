@@ -24,6 +24,7 @@ void Recorder::archive(Archive& archive) {
   archive(time_step_);
   history_.archive(archive);
   archive(rest_);
+  guard_.archive(archive);
   archive(cells_.seen());
   stopwatch_.archive(archive);
   if (failures_) failures_->archive(archive);
@@ -40,7 +41,7 @@ void Recorder::begin(bool quiet) {
 
 void Recorder::start_stage(const PlannedStage& stage, bool is_resumed) {
   stage_ = &stage;
-  guard_.start(stage);
+  guard_.start(stage, is_resumed);
   if (is_resumed) return;
   schedule_ = Schedule(stage.start_time, record_interval(stage), true);
   time_step_ = stage.plan.time_step;
@@ -100,11 +101,24 @@ void Recorder::record() {
     if (failures_) failures_->write_new(simulation_.breakages());
   });
   if (stage_->plan.at_rest) return;
-  guarded([&] { guard_.check_balance(record.balance, time_step_); });
-  if (std::string early = guard_.early_warning(record.balance, time_step_); !early.empty()) {
+  guarded([&] {
+    guard_.check_balance(record.balance, time_step_);
+    guard_.check_growth(record.balance, simulation_.work_of_loads(), time_step_);
+    guard_.check_momentum(record.balance, time_step_);
+  });
+  for (std::string early : {guard_.step_warning(record.balance, time_step_),
+                            guard_.early_warning(record.balance, time_step_)}) {
+    if (early.empty()) continue;
     spdlog::warn("warning: {}", early);
     warnings_.push_back(std::move(early));
   }
+}
+
+void Recorder::check_soundness() {
+  guarded([&] {
+    guard_.check_motion(time_step_);
+    if (!stage_->plan.at_rest) guard_.check_approach(time_step_);
+  });
 }
 
 void Recorder::look_at_cells() {
