@@ -19,15 +19,16 @@ namespace hyperlattice {
 class EnergyGrowth {
  public:
   /// Takes a record of the balance, with the work of each load, J. `step_ratio`: the step over the
-  /// critical one, 0 for implicit steps. Returns whether the energy runs away beyond `limit` times
-  /// what was put in.
+  /// stable one, below 1; 0 for implicit steps. Returns whether the energy runs away beyond `limit`
+  /// times what was put in; never for a `limit` of 0.
   bool runs_away(const EnergyBalance& balance, std::span<const double> work, double step_ratio,
                  double limit);
-  /// Returns the largest energy over all that was put in, of the last record; 0: nothing was.
+  /// Returns the largest energy of the last record over all that was put in; 0: nothing was.
   double ratio() const { return ratio_; }
 
  private:
   double ratio_ = 0;
+  double put_in_ = 0;        ///< the most so far, J: loads may take back what they gave
   std::uint64_t grown_ = 0;  ///< records in a row in which the ratio grew
 };
 

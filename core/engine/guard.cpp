@@ -19,20 +19,15 @@ Guard::Guard(const Model& model, const Simulation& simulation)
 
 void Guard::start(const PlannedStage& stage, bool is_resumed) {
   stage_ = &stage;
-  has_warned_ = has_warned_of_step_ = false;
-  looked_ = simulation_.steps();
-  error_looked_ = 0;
-  if (is_resumed) return momentum_.go_on(damps());
+  if (is_resumed) return;
+  warned_ = {};
+  warned_.looked = simulation_.steps();
   growth_ = {};
-  momentum_.start(damps());
-}
-
-/// Returns whether the stage takes momentum from the body in another way than by forces of loads.
-bool Guard::damps() const {
-  return stage_->plan.at_rest || stage_->plan.damping > 0 || stage_->mass_scaling.has_value();
+  momentum_.start();
 }
 
 void Guard::archive(Archive& archive) {
+  archive(warned_);
   archive(growth_);
   momentum_.archive(archive);
 }
@@ -73,9 +68,10 @@ void Guard::check_approach(double time_step) const {
 std::string Guard::early_warning(const EnergyBalance& balance, double time_step) {
   constexpr double early = 0.1;
   const double tolerance = stage_->stage->energy_tolerance;
-  if (has_warned_ || !(tolerance > 0) || std::abs(balance.relative_error()) < early * tolerance)
+  if (warned_.of_error != 0 || !(tolerance > 0) ||
+      std::abs(balance.relative_error()) < early * tolerance)
     return {};
-  has_warned_ = true;
+  warned_.of_error = 1;
   const std::string cause =
       likely_cause(model_, spring_extremes(model_, simulation_, time_step), time_step, critical());
   if (cause.empty()) return {};
@@ -86,7 +82,8 @@ std::string Guard::early_warning(const EnergyBalance& balance, double time_step)
 
 void Guard::check_growth(const EnergyBalance& balance, const std::vector<double>& work,
                          double time_step) {
-  const double limit = stage_->stage->growth_limit, ratio = time_step / critical();
+  const double limit = stage_->stage->growth_limit,
+               ratio = time_step / stage_->plan.stable_time_step;
   if (!growth_.runs_away(balance, work, ratio < 1 ? ratio : 0, limit)) return;
   fail(fmt::format("energy grows from nothing: it is {:.3g} times all that the start and the loads "
                    "have put in, and growth_limit is {:.3g}. A motion is unstable: the time step "
@@ -98,13 +95,14 @@ void Guard::check_growth(const EnergyBalance& balance, const std::vector<double>
 
 void Guard::check_momentum(const EnergyBalance& balance, double time_step) {
   const double tolerance = stage_->stage->momentum_tolerance;
-  if (!(tolerance > 0)) return;
+  // Added mass moves with the body, but body accelerations need not act on it.
+  if (!(tolerance > 0) || simulation_.damps() || stage_->mass_scaling) return momentum_.start();
   const double error = momentum_.error_of(balance, simulation_.time());
   if (error > tolerance)
     fail(fmt::format("momentum is lost: its error is {:.3g} of the gross momentum, and "
-                     "momentum_tolerance is {:.3g}. Forces of springs or loads do not act and "
-                     "react, or are too small for the digits of the velocities: check laws and "
-                     "loads of plugins, and take double precision",
+                     "momentum_tolerance is {:.3g}. The forces of a load are not those of its "
+                     "factor at the time, or forces of springs do not act and react: check loads "
+                     "and laws of plugins",
                      error, tolerance),
          time_step);
 }
@@ -114,14 +112,14 @@ std::string Guard::step_warning(const EnergyBalance& balance, double time_step) 
   constexpr std::uint64_t every = 10000;
   constexpr double noticeable = 1e-4, grown = 10;
   const double error = std::abs(balance.relative_error());
-  const bool is_due = simulation_.steps() >= looked_ + every ||
-                      (error > noticeable && error > grown * error_looked_);
-  if (has_warned_of_step_ || !(time_step < critical()) || !is_due) return {};
-  looked_ = simulation_.steps();
-  error_looked_ = error;
+  const bool is_due = simulation_.steps() >= warned_.looked + every ||
+                      (error > noticeable && error > grown * warned_.error_looked);
+  if (warned_.of_step != 0 || !(time_step < critical()) || !is_due) return {};
+  warned_.looked = simulation_.steps();
+  warned_.error_looked = error;
   const SpringExtremes state = spring_extremes(model_, simulation_, time_step);
   if (!(time_step > state.critical * critical())) return {};
-  has_warned_of_step_ = true;
+  warned_.of_step = 1;
   return fmt::format("at {:.6g} s the time step, {:.4g} s, is longer than springs now allow. {}",
                      simulation_.time(), time_step,
                      likely_cause(model_, state, time_step, critical()));

@@ -15,7 +15,7 @@ class Guard {
 
   /// Turns to a stage. `is_resumed`: the run continues in the middle of it.
   void start(const PlannedStage& stage, bool is_resumed);
-  /// Saves or restores what checks take over from earlier records.
+  /// Saves or restores what checks take over from earlier records of the stage.
   void archive(Archive& archive);
   /// Reads all velocities once. Throws RunError if a number is not finite or a particle runs away.
   void check_motion(double time_step) const;
@@ -44,16 +44,19 @@ class Guard {
  private:
   /// Returns the critical time step of the stage at rest, s.
   double critical() const;
-  bool damps() const;
   [[noreturn]] void fail(const std::string& what, double time_step) const;
 
   const Model& model_;
   const Simulation& simulation_;
   const PlannedStage* stage_ = nullptr;
   double shortest_;  ///< rest length of a spring, m
-  bool has_warned_ = false, has_warned_of_step_ = false;
-  std::uint64_t looked_ = 0;  ///< step of the last look at the present critical step
-  double error_looked_ = 0;   ///< relative error of the balance then
+  /// What warnings take over from earlier records. A plain record: part of the checkpoint.
+  struct Warned {
+    std::uint64_t of_error = 0, of_step = 0;  ///< 1: the warning was given in this stage
+    std::uint64_t looked = 0;  ///< step of the last look at the present critical step
+    double error_looked = 0;   ///< relative error of the balance then
+  };
+  Warned warned_;
   EnergyGrowth growth_;
   MomentumWatch momentum_;
 };

@@ -5,30 +5,25 @@
 
 namespace hyperlattice {
 
-MomentumWatch::MomentumWatch(const Model& model) : model_(model) {
+MomentumWatch::MomentumWatch(const Model& model)
+    : model_(model), watches_(model.springs.choice.precision == Precision::doubles) {
   for (const Load& load : model.loads) {
     Vec3& force = force_.emplace_back();
     double& gross = force_gross_.emplace_back();
-    if (!load.watched.empty()) acts_alone_ = false;
+    if (!load.watched.empty()) watches_ = false;
     for (const LoadedParticle& loaded : load.particles) {
-      if (loaded.displaced != 0 || loaded.driven != 0) acts_alone_ = false;
+      if (loaded.displaced != 0 || loaded.driven != 0) watches_ = false;
       force += loaded.force;
       gross += norm(loaded.force);
     }
   }
-  for (Particle p = 0; acts_alone_ && p < model.body.particles; ++p) mass_ += model.mass(p);
+  for (Particle p = 0; watches_ && p < model.body.particles; ++p) mass_ += model.mass(p);
 }
 
 double MomentumWatch::error_of(const EnergyBalance& balance, double time) {
-  constexpr double same = 1e-9;  // of the largest energy: round-off of a sum of energies
   if (!watches_) return 0;
-  const double start =
-      balance.kinetic + balance.stored + balance.dissipated() - balance.injected - balance.error;
-  if (now_.known != 0 && std::abs(start - now_.start_energy) > same * balance.scale)
-    now_.known = 0;  // someone has changed the state
-  const double most = std::sqrt(2 * mass_ * std::max(0.0, balance.kinetic));
-  if (now_.known == 0) {
-    now_ = {time, balance.momentum, 0, most, start, 1};
+  if (now_.known == 0 || balance.interventions != now_.interventions) {
+    now_ = {time, balance.momentum, 0, balance.interventions, 1};
     return 0;
   }
   for (std::size_t l = 0; l < force_.size(); ++l) {
@@ -41,8 +36,7 @@ double MomentumWatch::error_of(const EnergyBalance& balance, double time) {
   now_.expected += gained;
   now_.gross += norm(gained);
   now_.time = time;
-  now_.largest = std::max(now_.largest, most);
-  const double scale = std::max(now_.gross, now_.largest);
+  const double scale = std::max(now_.gross, std::sqrt(2 * mass_ * balance.scale));
   return scale > 0 ? norm(balance.momentum - now_.expected) / scale : 0;
 }
 

@@ -42,8 +42,7 @@ void Checkpoints::save_if_due(std::uint64_t steps, double time, std::uint64_t st
   if (ranks_.is_first() && seconds_since(saved_) >= interval_) ranks_.wish(Wish::save);
   if (!ranks_.agreed(Wish::save)) return;
   ranks_.done(Wish::save);
-  check_();
-  save(steps, time);
+  if (is_sound_()) save(steps, time);
 }
 
 }  // namespace hyperlattice

@@ -12,10 +12,11 @@ namespace hyperlattice {
 class Checkpoints {
  public:
   /// The first of `ranks` writes. `seconds_between`: of save_if_due(), at most; 0: it never saves.
-  /// `check` throws if the state has gone wrong. `drain` waits until all frames are written.
-  /// `gather` brings the state up to date. `state` passes all that the run needs to an archive.
+  /// `is_sound`: whether the state has not gone wrong, so that save_if_due() may save it. `drain`
+  /// waits until all frames are written. `gather` brings the state up to date. `state` passes all
+  /// that the run needs to an archive.
   Checkpoints(const Plan& plan, RunFolder& folder, Stopwatch& stopwatch, Ranks& ranks,
-              double seconds_between, std::function<void()> check, std::function<void()> drain,
+              double seconds_between, std::function<bool()> is_sound, std::function<void()> drain,
               std::function<void()> gather, Visit state)
       : plan_(plan),
         folder_(folder),
@@ -23,7 +24,7 @@ class Checkpoints {
         ranks_(ranks),
         seconds_between_(seconds_between),
         interval_(first_interval(plan, seconds_between)),
-        check_(std::move(check)),
+        is_sound_(std::move(is_sound)),
         drain_(std::move(drain)),
         gather_(std::move(gather)),
         state_(std::move(state)) {}
@@ -31,10 +32,11 @@ class Checkpoints {
   /// Saves the state after this number of steps, at `time`, s; before the first step of the run
   /// nothing but the head.
   void save(std::uint64_t steps, double time);
-  /// Saves the state if the last checkpoint is old. The first one is saved after ten seconds, and
-  /// each interval is twice the one before until it is `seconds_between`: so a run that fails early
-  /// leaves a state, too. Saving takes no more than about a fiftieth of the time. `stage_steps`:
-  /// steps of the present stage; `sweeps_per_step`: SolverPlan::sweeps_per_step.
+  /// Saves the state if the last checkpoint is old and the state is sound. The first one is saved
+  /// after ten seconds, and each interval is twice the one before until it is `seconds_between`: so
+  /// a run that fails early leaves a state, too. Saving takes no more than about a fiftieth of the
+  /// time. `stage_steps`: steps of the present stage; `sweeps_per_step`:
+  /// SolverPlan::sweeps_per_step.
   void save_if_due(std::uint64_t steps, double time, std::uint64_t stage_steps,
                    double sweeps_per_step);
 
@@ -49,7 +51,8 @@ class Checkpoints {
   Stopwatch& stopwatch_;
   Ranks& ranks_;
   double seconds_between_, interval_;  // s
-  std::function<void()> check_, drain_, gather_;
+  std::function<bool()> is_sound_;
+  std::function<void()> drain_, gather_;
   Visit state_;
   std::chrono::steady_clock::time_point saved_ = std::chrono::steady_clock::now();
 };

@@ -3,6 +3,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+
 namespace hyperlattice {
 
 Recorder::Recorder(const Plan& plan, Simulation& simulation, RunFolder& folder,
@@ -25,6 +27,16 @@ void Recorder::archive(Archive& archive) {
   history_.archive(archive);
   archive(rest_);
   guard_.archive(archive);
+  std::string lines;  // a warning is one line
+  for (const std::string& warning : warnings_) lines += warning + '\n';
+  std::vector<char> letters(lines.begin(), lines.end());
+  archive(letters);
+  if (archive.restores()) {
+    warnings_.clear();
+    for (auto from = letters.begin(), to = from;
+         (to = std::find(from, letters.end(), '\n')) != letters.end(); from = to + 1)
+      warnings_.emplace_back(from, to);
+  }
   archive(cells_.seen());
   stopwatch_.archive(archive);
   if (failures_) failures_->archive(archive);
@@ -114,11 +126,14 @@ void Recorder::record() {
   }
 }
 
-void Recorder::check_soundness() {
-  guarded([&] {
+bool Recorder::is_sound() const {
+  try {
     guard_.check_motion(time_step_);
     if (!stage_->plan.at_rest) guard_.check_approach(time_step_);
-  });
+    return true;
+  } catch (const RunError&) {
+    return false;
+  }
 }
 
 void Recorder::look_at_cells() {

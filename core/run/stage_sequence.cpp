@@ -25,7 +25,7 @@ StageSequence::StageSequence(const Plan& plan, const RunOptions& options, RunFol
       recorder_(plan, simulation, folder, stopwatch_, ranks),
       checkpoints_(
           plan, folder, stopwatch_, ranks, options.checkpoint_every,
-          [this] { recorder_.check_soundness(); }, [this] { recorder_.drain(); },
+          [this] { return recorder_.is_sound(); }, [this] { recorder_.drain(); },
           [&simulation] { simulation.gather_in_first(); },
           [this](Archive& state) { archive(state); }) {}
 

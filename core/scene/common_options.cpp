@@ -66,9 +66,9 @@ struct CommonSchema {
           .fallback("2")
           .add<&Options::momentum_tolerance>(
               "momentum_tolerance", "",
-              "error of the momentum over the gross momentum at which the run stops; watched where "
-              "nothing but given forces acts: no prescribed motion, no load that answers, no "
-              "damping and no added mass; 0: never")
+              "error of the momentum over the gross momentum at which the run stops; watched in "
+              "double precision where nothing but given forces acts: no prescribed motion, no load "
+              "that answers, no damping and no added mass; 0: never")
           .at_least(0)
           .fallback("1e-3")
           .add<&Options::mass_scaling>(
