@@ -41,8 +41,10 @@ Command run_command(CLI::App& program) {
       "--overwrite", arguments->options.overwrite,
       "give up an interrupted run in the folder, and replace files there that no run's list names");
   command
-      ->add_option("--checkpoint-every", arguments->options.checkpoint_every,
-                   "seconds between checkpoints (default: 600; 0: only when interrupted)")
+      ->add_option(
+          "--checkpoint-every", arguments->options.checkpoint_every,
+          "most seconds between checkpoints; the first come sooner (default: 600; 0: only when "
+          "interrupted)")
       ->check(CLI::Range(0.0, 1e12));  // refuses nan
   command
       ->add_option("--engine", arguments->engine,

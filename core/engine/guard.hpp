@@ -2,6 +2,8 @@
 // step to the critical one, and the likely cause.
 #pragma once
 
+#include <engine/energy_growth.hpp>
+#include <engine/momentum_watch.hpp>
 #include <plan/plan.hpp>
 #include <state/simulation.hpp>
 
@@ -11,10 +13,10 @@ class Guard {
  public:
   Guard(const Model& model, const Simulation& simulation);
 
-  void start(const PlannedStage& stage) {
-    stage_ = &stage;
-    has_warned_ = false;
-  }
+  /// Turns to a stage. `is_resumed`: the run continues in the middle of it.
+  void start(const PlannedStage& stage, bool is_resumed);
+  /// Saves or restores what checks take over from earlier records of the stage.
+  void archive(Archive& archive);
   /// Reads all velocities once. Throws RunError if a number is not finite or a particle runs away.
   void check_motion(double time_step) const;
   /// Throws RunError if ends of a spring approach too fast for the step (the stage's
@@ -25,6 +27,17 @@ class Guard {
   std::string early_warning(const EnergyBalance& balance, double time_step);
   /// Throws RunError if an energy is not a number.
   void check_finite(const EnergyBalance& balance, double time_step) const;
+  /// Throws RunError if energy grows beyond all that was put in (the stage's `growth_limit`). Of
+  /// each record once. `work`: of each load, J.
+  void check_growth(const EnergyBalance& balance, const std::vector<double>& work,
+                    double time_step);
+  /// Throws RunError if the momentum is not what the loads explain (the stage's
+  /// `momentum_tolerance`). Of each record once.
+  void check_momentum(const EnergyBalance& balance, double time_step);
+  /// Returns a warning if the time step is longer than the present critical one, as springs stiffen
+  /// or are stretched, once in a stage; empty otherwise. Reads all springs, in about the time of a
+  /// hundred steps, so that it looks rarely: see guard.cpp. `balance`: of a record.
+  std::string step_warning(const EnergyBalance& balance, double time_step);
   /// Throws RunError if the error of the balance passes the stage's tolerance.
   void check_balance(const EnergyBalance& balance, double time_step) const;
 
@@ -37,7 +50,15 @@ class Guard {
   const Simulation& simulation_;
   const PlannedStage* stage_ = nullptr;
   double shortest_;  ///< rest length of a spring, m
-  bool has_warned_ = false;
+  /// What warnings take over from earlier records. A plain record: part of the checkpoint.
+  struct Warned {
+    std::uint64_t of_error = 0, of_step = 0;  ///< 1: the warning was given in this stage
+    std::uint64_t looked = 0;  ///< step of the last look at the present critical step
+    double error_looked = 0;   ///< relative error of the balance then
+  };
+  Warned warned_;
+  EnergyGrowth growth_;
+  MomentumWatch momentum_;
 };
 
 }  // namespace hyperlattice

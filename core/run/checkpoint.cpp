@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view head_tag = "head", state_tag = "stat";
-constexpr int version = 5;  // of the checkpoint's format
+constexpr int version = 6;  // of the checkpoint's format
 
 std::string text_of(const CheckpointHead& head) {
   nlohmann::json json{{"version", version},    {"identity", identity_json(head.identity)},

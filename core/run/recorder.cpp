@@ -3,6 +3,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+
 namespace hyperlattice {
 
 Recorder::Recorder(const Plan& plan, Simulation& simulation, RunFolder& folder,
@@ -24,6 +26,17 @@ void Recorder::archive(Archive& archive) {
   archive(time_step_);
   history_.archive(archive);
   archive(rest_);
+  guard_.archive(archive);
+  std::string lines;  // a warning is one line
+  for (const std::string& warning : warnings_) lines += warning + '\n';
+  std::vector<char> letters(lines.begin(), lines.end());
+  archive(letters);
+  if (archive.restores()) {
+    warnings_.clear();
+    for (auto from = letters.begin(), to = from;
+         (to = std::find(from, letters.end(), '\n')) != letters.end(); from = to + 1)
+      warnings_.emplace_back(from, to);
+  }
   archive(cells_.seen());
   stopwatch_.archive(archive);
   if (failures_) failures_->archive(archive);
@@ -40,7 +53,7 @@ void Recorder::begin(bool quiet) {
 
 void Recorder::start_stage(const PlannedStage& stage, bool is_resumed) {
   stage_ = &stage;
-  guard_.start(stage);
+  guard_.start(stage, is_resumed);
   if (is_resumed) return;
   schedule_ = Schedule(stage.start_time, record_interval(stage), true);
   time_step_ = stage.plan.time_step;
@@ -100,10 +113,26 @@ void Recorder::record() {
     if (failures_) failures_->write_new(simulation_.breakages());
   });
   if (stage_->plan.at_rest) return;
-  guarded([&] { guard_.check_balance(record.balance, time_step_); });
-  if (std::string early = guard_.early_warning(record.balance, time_step_); !early.empty()) {
+  guarded([&] {
+    guard_.check_balance(record.balance, time_step_);
+    guard_.check_growth(record.balance, simulation_.work_of_loads(), time_step_);
+    guard_.check_momentum(record.balance, time_step_);
+  });
+  for (std::string early : {guard_.step_warning(record.balance, time_step_),
+                            guard_.early_warning(record.balance, time_step_)}) {
+    if (early.empty()) continue;
     spdlog::warn("warning: {}", early);
     warnings_.push_back(std::move(early));
+  }
+}
+
+bool Recorder::is_sound() const {
+  try {
+    guard_.check_motion(time_step_);
+    if (!stage_->plan.at_rest) guard_.check_approach(time_step_);
+    return true;
+  } catch (const RunError&) {
+    return false;
   }
 }
 

@@ -36,6 +36,9 @@ class Recorder {
   void take_report(const RestReport& report) { rest_ = report; }
   /// Records the present state, and shows it to the outputs that are due.
   void observe();
+  /// Returns whether the motion of the present state passes the checks. Checkpoints are due by the
+  /// clock: the checks that stop a run do not depend on them.
+  bool is_sound() const;
   /// Observes the state if that was not done since the last step.
   void observe_once();
   /// Records the state at the end of the stage. At rest all outputs are due.

@@ -173,16 +173,17 @@ void tidy_up(RunFolder& folder, const Outcome& outcome, bool has_checkpoint) {
 }
 
 /// Returns a sentence about the last state that a failed run left to go on from.
-std::string about_last_state(const std::filesystem::path& directory, const RunOptions& options) {
+std::string about_last_state(const Plan& plan, const std::filesystem::path& directory,
+                             const RunOptions& options) {
   if (const std::string place = place_of_checkpoint(directory); !place.empty())
     return fmt::format(
         "The newest checkpoint is of {}: --resume goes on from it, --overwrite gives it up.",
         place);
   if (options.checkpoint_every > 0)
     return fmt::format(
-        "There is no checkpoint: the run failed within the {:g} s of --checkpoint-every; fewer "
-        "seconds leave one.",
-        options.checkpoint_every);
+        "There is no checkpoint: the run failed within {:.3g} s; fewer seconds of "
+        "--checkpoint-every leave one.",
+        Checkpoints::first_interval(plan, options.checkpoint_every));
   return "There is no checkpoint: --checkpoint-every SECONDS asks for some.";
 }
 
@@ -193,7 +194,7 @@ void conclude(const Plan& plan, const RunOptions& options, RunFolder& folder, Ou
   const bool has_checkpoint = holds_progress(directory);
   if (outcome.exit_code == exit_run)
     outcome.reason +=
-        (outcome.reason.ends_with('.') ? " " : ". ") + about_last_state(directory, options);
+        (outcome.reason.ends_with('.') ? " " : ". ") + about_last_state(plan, directory, options);
   try {
     if (outcome.exit_code == exit_done && has_checkpoint) folder.sync();
     try {

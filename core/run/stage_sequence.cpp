@@ -24,7 +24,8 @@ StageSequence::StageSequence(const Plan& plan, const RunOptions& options, RunFol
       ranks_(ranks),
       recorder_(plan, simulation, folder, stopwatch_, ranks),
       checkpoints_(
-          plan, folder, stopwatch_, ranks, options.checkpoint_every, [this] { recorder_.drain(); },
+          plan, folder, stopwatch_, ranks, options.checkpoint_every,
+          [this] { return recorder_.is_sound(); }, [this] { recorder_.drain(); },
           [&simulation] { simulation.gather_in_first(); },
           [this](Archive& state) { archive(state); }) {}
 

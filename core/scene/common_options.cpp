@@ -56,6 +56,21 @@ struct CommonSchema {
               "step; beyond it the run stops before they pass through each other; 0: never")
           .at_least(0)
           .fallback("0.5")
+          .add<&Options::growth_limit>(
+              "growth_limit", "",
+              "kinetic or stored energy over all that the start and the loads have put in, beyond "
+              "which the run stops if the energy grows from record to record; linear motions in "
+              "steps of r critical ones may reach 1 / (1 - r^2), by which the limit is multiplied; "
+              "0: never")
+          .at_least(0)
+          .fallback("2")
+          .add<&Options::momentum_tolerance>(
+              "momentum_tolerance", "",
+              "error of the momentum over the gross momentum at which the run stops; watched in "
+              "double precision where nothing but given forces acts: no prescribed motion, no load "
+              "that answers, no damping and no added mass; 0: never")
+          .at_least(0)
+          .fallback("1e-3")
           .add<&Options::mass_scaling>(
               "mass_scaling", "s",
               "of solvers that take explicit steps: critical time step that the stage gets; "

@@ -12,7 +12,7 @@ struct CommonOptions {
   RegionId region;
   std::optional<double> record_every, every;
   std::optional<double> mass_scaling;
-  double energy_tolerance = 0, approach_limit = 0;
+  double energy_tolerance = 0, approach_limit = 0, growth_limit = 0, momentum_tolerance = 0;
   bool first = true, last = true;
 };
 

@@ -57,6 +57,10 @@ struct Stage {
   double energy_tolerance = 0;
   /// solvers: part of their distance by which ends of a spring may come nearer in a step; 0: any
   double approach_limit = 0;
+  /// solvers: kinetic or stored energy over all that was put in at which the run stops; 0: any
+  double growth_limit = 0;
+  /// solvers: error of the momentum over the gross one at which the run stops; 0: any
+  double momentum_tolerance = 0;
   /// solvers: critical time step, s, that added mass gives the body; 0: no mass is added
   double mass_scaling = 0;
 

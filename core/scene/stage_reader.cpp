@@ -30,6 +30,8 @@ void take_common(const CommonOptions& common, Stage& stage) {
   stage.record_every = common.record_every.value_or(0);
   stage.energy_tolerance = common.energy_tolerance;
   stage.approach_limit = common.approach_limit;
+  stage.growth_limit = common.growth_limit;
+  stage.momentum_tolerance = common.momentum_tolerance;
   stage.mass_scaling = common.mass_scaling.value_or(0);
 }
 

@@ -59,6 +59,7 @@ EnergyBalance EnergyAccount::balance() {
                 std::abs(balance.injected), gross_work(blocks_, potential, clock_.last_step()),
                 std::abs(start_energy_)});
   balance.scale = largest_energy_;
+  balance.interventions = interventions_;
   return balance;
 }
 
@@ -70,6 +71,7 @@ void EnergyAccount::archive(Archive& archive) {
   archive(start_energy_);
   archive(start_potential_);
   archive(largest_energy_);
+  archive(interventions_);
 }
 
 }  // namespace hyperlattice

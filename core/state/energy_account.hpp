@@ -28,7 +28,12 @@ class EnergyAccount {
   /// known.
   void find_start();
   /// Lets the balance start at the next state that is measured.
-  void forget_start() { start_known_ = false; }
+  void forget_start() {
+    start_known_ = false;
+    count_intervention();
+  }
+  /// Counts that motion was set, stopped or damped from outside of the loads.
+  void count_intervention() { ++interventions_; }
   /// Adds to the energy at the start, J.
   void shift_start(double added) { start_energy_ += added; }
   /// Sets the present error of the balance to zero.
@@ -55,6 +60,7 @@ class EnergyAccount {
 
   double softened_energy_ = 0, halted_energy_ = 0, unused_gravity_ = 0;  // J
   bool start_known_ = false;
+  std::uint64_t interventions_ = 0;
   double start_energy_ = 0, start_potential_ = 0, largest_energy_ = 0;  // J
   std::vector<double> work_;  // of each load in the last balance, J
 };

@@ -49,6 +49,7 @@ void Simulation::halt() {
   for (const Block& block : state_->blocks)
     for (int c = 0; c < state_->blocks.model().degrees_of_freedom; ++c) block.velocity[c].clear();
   state_->clock.rest();
+  energy.count_intervention();
   energy.count_halted(error - energy.balance().error);
 }
 

@@ -39,7 +39,12 @@ Simulation::Simulation(const Model& model, int threads, Ranks& ranks, int blocks
     : state_(std::make_unique<State>(model, threads, ranks, blocks)) {}
 Simulation::~Simulation() = default;
 
-void Simulation::set_damping(double alpha, double rate) { state_->sweeps.set_damping(alpha, rate); }
+void Simulation::set_damping(double alpha, double rate) {
+  const bool damped = damps();
+  state_->sweeps.set_damping(alpha, rate);
+  if (damped || damps()) state_->energy.count_intervention();
+}
+bool Simulation::damps() const { return state_->sweeps.damps(); }
 void Simulation::set_local_steps(double time_step, std::int64_t parts) {
   if (parts > 1) {
     state_->blocks.keep_whole();

@@ -42,6 +42,8 @@ class Simulation {
   /// Sets the damping of the steps that follow: `alpha` of local damping and the rate of damping in
   /// proportion to mass, 1/s.
   void set_damping(double alpha, double rate = 0);
+  /// Returns whether steps are damped now.
+  bool damps() const;
   /// Lets the particles whose own stable step is below `time_step`, s, take `parts` steps within
   /// each step that follows (local_steps.hpp); `parts` 1: none do.
   void set_local_steps(double time_step, std::int64_t parts);

@@ -21,6 +21,7 @@ class Sweeps {
   /// Sets the damping: `alpha` of local damping and the rate of damping in proportion to mass, 1/s.
   void set_damping(double alpha, double rate);
   double damping() const { return damping_; }  ///< alpha
+  bool damps() const { return damping_ != 0 || damping_rate_ != 0; }
   /// Advances all blocks by a step and counts the work of the loads. Returns the largest number of
   /// springs that broke in a rank; 0 if there is one rank. Throws RunError if a load is not a
   /// number.

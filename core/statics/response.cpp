@@ -86,14 +86,7 @@ double Statics::respond_plane(std::int32_t k, const double* u, double* force,
       springs.rest = neighbour.rest;
       springs.rest_length = neighbour.rest_length;
       springs.cross_rest_length = neighbour.cross_rest_length;
-      for (int c = 0; c < grid.components; ++c) {
-        springs.here[c] = u + c * grid.places + first;
-        springs.there[c] = springs.here[c] + step;
-        if (!moves()) continue;
-        springs.here_before[c] = state_.data() + c * grid.places + first;
-        springs.there_before[c] = springs.here_before[c] + step;
-      }
-      time_row(springs);
+      place_row(u, first, step, springs);
       energy += linearise_row(n, row.begin, j, k, buffer);
       add_forces(buffer, grid, grid.places, step, force + first);
       if (tangents != nullptr) keep_tangents(buffer, grid.components == 4, at, *tangents);

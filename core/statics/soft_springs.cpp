@@ -82,14 +82,7 @@ double Statics::respond_soft(const double* u, double* force, const SpringTangent
     row.rest = soft.of.rest;
     row.rest_length = soft.of.rest_length_of(0);
     row.cross_rest_length = soft.of.rest_length_of(1);
-    for (int c = 0; c < grid.components; ++c) {
-      row.here[c] = u + c * grid.places + soft.place;
-      row.there[c] = row.here[c] + soft.step;
-      if (!moves()) continue;
-      row.here_before[c] = state_.data() + c * grid.places + soft.place;
-      row.there_before[c] = row.here_before[c] + soft.step;
-    }
-    time_row(row);
+    place_row(u, soft.place, soft.step, row);
     energy +=
         linearise_one(buffer, kinds, [&](std::size_t cross, double, const StepElongations& at) {
           const double whole = soft.of.stiffness_of(cross);

@@ -137,14 +137,16 @@ template <class Answer>
 double linearise_one(RowBuffers& buffer, std::size_t kinds, const Answer& answer) {
   const SpringRow& row = buffer.springs;
   const SpringMotion mean = motion_of_one(row.here, row.there);
+  SpringProperties spring;
+  spring.rest = row.rest;
+  spring.rest_length = row.rest_length;
+  spring.cross_rest_length = row.cross_rest_length;
   double energy = 0;
   for (std::size_t cross = 0; cross < kinds; ++cross) {
-    const double rest_length = cross == 0 ? row.rest_length : row.cross_rest_length;
+    const double rest_length = spring.rest_length_of(cross);
     const auto elongation_at = [&](const SpringMotion& at) {
-      const double rise = cross == 0 ? at.height_b - at.height_a : at.height_b + at.height_a,
-                   growth = dot(at.apart, 2 * row.rest + at.apart) +
-                            rise * (cross == 0 ? rise : 2 * row.membrane_distance + rise);
-      return growth / (SpringProperties::present_length(rest_length, growth) + rest_length);
+      const double rise = cross == 0 ? at.height_b - at.height_a : at.height_b + at.height_a;
+      return spring.elongation(cross, spring.growth(cross, at.apart, rise, row.membrane_distance));
     };
     StepElongations at;
     at.start = at.mean = at.end = elongation_at(mean);

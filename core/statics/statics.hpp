@@ -133,6 +133,7 @@ class Statics {
   std::vector<double> motion_memory() const;
   void recall_motion(std::span<const double> memory);
   void time_row(SpringRow& row) const;
+  void place_row(const double* u, std::int64_t place, std::int64_t step, SpringRow& row) const;
   double end_of(std::size_t number, const double* mean) const {
     return state_[number] + (mean[number] - state_[number]) / step_->of.forward;
   }

@@ -24,6 +24,21 @@ void Statics::time_row(SpringRow& row) const {
   row.time_step = step_->of.forward * step_->of.length;
 }
 
+/// Lets a row of springs start at a place and end `step` places on, in the motion `u`; in a step in
+/// time also in the state before it.
+void Statics::place_row(const double* u, std::int64_t place, std::int64_t step,
+                        SpringRow& row) const {
+  const StaticGrid& grid = problem_.grid;
+  for (int c = 0; c < grid.components; ++c) {
+    row.here[c] = u + c * grid.places + place;
+    row.there[c] = row.here[c] + step;
+    if (!moves()) continue;
+    row.here_before[c] = state_.data() + c * grid.places + place;
+    row.there_before[c] = row.here_before[c] + step;
+  }
+  time_row(row);
+}
+
 /// Finds the velocities at the time of the present state, before the first step.
 void Statics::read_velocity(double time_step) {
   const auto places = static_cast<std::size_t>(problem_.grid.places);

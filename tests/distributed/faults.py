@@ -11,7 +11,7 @@ import tempfile
 import time
 
 import launch
-from same_bits import BLOCK
+from same_bits import BLOCK, contents
 
 RANKS = 3
 
@@ -165,7 +165,7 @@ def resumes(trial, whole, ranks):
     expect(end.returncode == 0, f"resumed on {ranks} ranks: exit code {end.returncode}: {end.stderr}")
     expect(trial.hash_of(trial.out) == trial.hash_of(whole), f"resumed on {ranks} ranks: other bits")
     for name in ("history.csv", "failures.csv", "probes/top.csv"):
-        expect(launch.contents(trial.out)[name] == launch.contents(whole)[name], f"resumed on {ranks} ranks: other {name}")
+        expect(contents(trial.out)[name] == contents(whole)[name], f"resumed on {ranks} ranks: other {name}")
 
 
 def killed(trial):

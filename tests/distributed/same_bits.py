@@ -10,6 +10,9 @@ import tempfile
 
 import launch
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "support"))
+from folders import contents  # noqa: E402
+
 LATTICE, MATERIAL = 0, 1
 BLOCK = {
     "format": "hyperlattice/1",
@@ -183,7 +186,7 @@ TIMES = ("wall_seconds", "nanoseconds_per_particle_step", "peak_memory_bytes", "
 
 
 def comparable(folder, ranks):
-    files = launch.contents(folder)
+    files = contents(folder)
     summary = json.loads(files["summary.json"])
     assert summary["ranks"] == ranks, f"the summary says {summary['ranks']} ranks, not {ranks}"
     for key in (*TIMES, "ranks", "threads", "memory_bytes", "bytes_per_particle"):

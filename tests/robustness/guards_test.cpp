@@ -83,6 +83,20 @@ TEST_F(Guards, NameStretchedSpringsThatShortenTheCriticalStep) {
   const json stages = json::array({held, force});
   const std::string text = reason(block(stages, {{"end_time", "1 ms"}, {"safety", 0.99}}));
   EXPECT_NE(text.find("have shortened the critical step to about"), std::string::npos) << text;
+  // A warning has come before.
+  const json warnings = read_json(out + "/summary.json").at("warnings");
+  ASSERT_EQ(warnings.size(), 1U) << warnings.dump(1);
+  const std::string warning = warnings[0];
+  EXPECT_NE(warning.find("s, is longer than springs now allow. Likely cause"), std::string::npos)
+      << warning;
+  // A run that goes on from a checkpoint after the warning still has it, once.
+  EXPECT_EQ(reason(block(stages, {{"end_time", "1 ms"}, {"safety", 0.99}}),
+                   {"--checkpoint-every", "1e-9"})
+                .find("There is no checkpoint"),
+            std::string::npos);
+  const Result again = run_program({"run", folder.file("scene.json"), "--out", out, "--resume"});
+  EXPECT_EQ(again.exit_code, 3) << again.err;
+  EXPECT_EQ(read_json(out + "/summary.json").at("warnings"), warnings);
   // With the step that the message asks for the run ends well.
   const Result result = run_program(
       {"run", write_scene(folder, block(stages, {{"end_time", "1 ms"}, {"safety", 0.75}})), "--out",
@@ -96,7 +110,7 @@ TEST_F(Guards, NameTheNewestCheckpoint) {
       {"type", "loads.force"}, {"on", "x_max"}, {"total", {8000, 0, 0}}, {"rise", "0.2 ms"}};
   const json scene = block(json::array({held, force}), {{"end_time", "1 ms"}, {"safety", 0.99}});
   const std::string none = reason(scene);
-  EXPECT_NE(none.find("There is no checkpoint: the run failed within the 600 s"), std::string::npos)
+  EXPECT_NE(none.find("There is no checkpoint: the run failed within 10 s"), std::string::npos)
       << none;
   EXPECT_NE(reason(scene, {"--checkpoint-every", "0"}).find("--checkpoint-every SECONDS asks"),
             std::string::npos);

@@ -18,6 +18,9 @@ import sys
 import tempfile
 import time
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "support"))
+from folders import contents  # noqa: E402
+
 SCENE = {
     "format": "hyperlattice/1",
     "pipeline": [
@@ -68,16 +71,6 @@ class Trial:
         if different:
             sys.exit(f"{what}: other than without: {different}")
         return resumable
-
-
-def contents(folder):
-    files = {}
-    for place, _, names in os.walk(folder):
-        for name in names:
-            path = os.path.join(place, name)
-            with open(path, "rb") as file:
-                files[os.path.relpath(path, folder)] = file.read()
-    return files
 
 
 def results(folder):

@@ -1,8 +1,7 @@
-// States of simulations in memory.
+// States of simulations, and of other things that pass an archive, in memory.
 #pragma once
 
 #include <state/archive.hpp>
-#include <state/simulation.hpp>
 
 #include <cstring>
 #include <vector>
@@ -10,7 +9,8 @@
 namespace hyperlattice::test {
 
 /// Saves a state in memory.
-inline std::vector<char> saved(Simulation& simulation) {
+template <class Kept>
+std::vector<char> saved(Kept& kept) {
   std::vector<char> bytes;
   Archive archive(
       [&](void* data, std::size_t size) {
@@ -18,12 +18,13 @@ inline std::vector<char> saved(Simulation& simulation) {
         bytes.insert(bytes.end(), from, from + size);
       },
       false);
-  simulation.archive(archive);
+  kept.archive(archive);
   return bytes;
 }
 
 /// Restores it. Returns the number of bytes that it read.
-inline std::size_t restore(Simulation& simulation, const std::vector<char>& bytes) {
+template <class Kept>
+std::size_t restore(Kept& kept, const std::vector<char>& bytes) {
   std::size_t at = 0;
   Archive archive(
       [&](void* data, std::size_t size) {
@@ -31,7 +32,7 @@ inline std::size_t restore(Simulation& simulation, const std::vector<char>& byte
         at += size;
       },
       true);
-  simulation.archive(archive);
+  kept.archive(archive);
   return at;
 }
 

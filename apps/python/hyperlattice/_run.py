@@ -73,7 +73,7 @@ def run(scene: Scene, out: str | os.PathLike[str] | None = None, threads: int | 
     settings: values to replace in a scene file, {"/pipeline/1/poisson": 0.1}.
     resume: goes on from the checkpoint in `out`.
     overwrite: gives up an interrupted run in `out`.
-    checkpoint_every: seconds between checkpoints; 0: only when interrupted.
+    checkpoint_every: most seconds between checkpoints; 0: only when interrupted.
     progress: shows a progress line; None: in a notebook and on a terminal.
 
     Other threads of Python go on during the run. Ctrl-C stops the run with a checkpoint and raises KeyboardInterrupt.

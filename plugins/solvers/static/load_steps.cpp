@@ -126,7 +126,8 @@ bool LoadSteps::settle() {
   for (int tries = 0; problem_.broke > 0;) {
     newton_.forget_tangent();
     if (!search(place(), share_)) {
-      host_.observe();  // records what broke, though the body is not at rest
+      // Records what broke, though the body is not at rest; a run that is resumed searches again.
+      if (!newton_.stopped()) host_.observe();
       return false;
     }
     const bool may_fall = options_.snap_back && tries < most_tries;

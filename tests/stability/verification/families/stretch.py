@@ -1,7 +1,7 @@
 """Stretch up to 3, compression down to 0.3."""
 from verification import cubes
 from verification.case import Case, Error, Family, Plot, near
-from verification.scenes import YOUNG, explicit, fixed, static
+from verification.scenes import YOUNG, cubic, elastic, explicit, fixed, scene, stage, static
 from verification.theory import Homogeneous, softest
 
 LATTICE = "homogeneous strain of the infinite lattice, closed form"
@@ -41,6 +41,14 @@ def held(stretch, solver, name, tolerance=1e-6, **more):
                 series="membrane none, sides held" if name == "static" else "", at=stretch)
 
 
+def pulled_in_long_steps():
+    """A free block that a force stretches by half. Its stretched springs resist motions across them too."""
+    made = scene(cubic([6, 4, 4], "particles"), elastic(), fixed("x_min"),
+                 stage("loads.force", on="x_max", total=[8000, 0, 0], rise=2e-4), explicit(1e-3, safety=0.99))
+    return Case("stretch/long_steps", "strain of a half under a force, steps of 0.99 critical ones", made,
+                Error(3, "have shortened the critical step to about", "a guard while running"))
+
+
 STRETCHES = [0.3 + 0.05 * n for n in range(55)]
 FAMILY = Family(
     "stretch", "Stretch of 3, compression to 0.3",
@@ -52,7 +60,8 @@ FAMILY = Family(
     + [buckled(0.47, 10), buckled(0.466, 40), buckled(0.3, 10)]
     + [held(a, static(load_steps=10), "static") for a in (0.3, 0.5, 2.0, 3.0)]
     + [held(a, explicit(1e-4, safety=0.5), "explicit", 2e-2) for a in (0.3, 3.0)]
-    + [held(3.0, explicit(1e-4, safety=0.5), "explicit_float", 2e-2, precision="float")],
+    + [held(3.0, explicit(1e-4, safety=0.5), "explicit_float", 2e-2, precision="float")]
+    + [pulled_in_long_steps()],
     Plot("stretch", "force on a face of a cell over k l", height=lambda outcome: outcome.value,
          curves={"theory, none, free": [(a, Homogeneous().pulled(a)[2]) for a in STRETCHES],
                  "theory, none, held": [(a, Homogeneous().force(a)) for a in STRETCHES],
