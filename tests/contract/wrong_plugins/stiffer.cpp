@@ -3,7 +3,7 @@
 // instruction set only, to save time of compilation.
 #define HYPERLATTICE_INSTRUCTIONS baseline
 #include <hyperlattice/elastic_solid.hpp>
-#include <hyperlattice/kernels/sweep.hpp>
+#include <hyperlattice/kernels/law_kernels.hpp>
 
 struct StifferLaw {
   static constexpr double factor = 1.5;

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <hyperlattice/kernels/cells.hpp>
+#include <hyperlattice/kernels/springs.hpp>
 #include <hyperlattice/kernels/stencil.hpp>
 
 namespace hyperlattice::HYPERLATTICE_INSTRUCTIONS {
