@@ -54,9 +54,10 @@ void SceneArguments::declare(CLI::App& command) {
   threads.declare(command);
 }
 
-std::unique_ptr<Plan> SceneArguments::plan(Host& host, int ranks, int node_ranks) const {
+std::unique_ptr<Plan> SceneArguments::plan(Host& host, int ranks, int node_ranks,
+                                           bool writes) const {
   const ElapsedTime elapsed_time;
-  return make_plan(read_scene(scene, settings, host), threads.count(node_ranks), ranks);
+  return make_plan(read_scene(scene, settings, host), threads.count(node_ranks), ranks, writes);
 }
 
 Command plan_command(CLI::App& program) {

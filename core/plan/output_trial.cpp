@@ -55,12 +55,15 @@ class BodyAtRest {
         return static_cast<BodyAtRest*>(self)->acted_.particles(of);
       });
     };
-    context.external_forces = [](void*, LoadOrRegion) noexcept { return ForcesId(); };
+    context.external_forces = [](void* self, LoadOrRegion) noexcept {
+      static_cast<BodyAtRest*>(self)->asked_forces_ = true;
+      return ForcesId();
+    };
     context.cut_section = [](void* self, Vec3 point, Vec3 normal, RegionId region) noexcept {
       return PluginCall::answer(Section(), [&] {
         auto& rest = *static_cast<BodyAtRest*>(self);
-        const PlaneSection section =
-            cut(rest.model_, point, normal, rest.regions_.particles(region));
+        rest.asked_forces_ = true;
+        const auto section = cut(rest.model_, point, normal, rest.regions_.particles(region));
         return Section{{}, section.springs.size(), section.area};
       });
     };
@@ -86,6 +89,13 @@ class BodyAtRest {
   std::vector<RegionId> take_asked() { return std::exchange(asked_, {}); }
   /// Returns the fields that were named since the last call.
   std::vector<std::string> take_used() { return std::exchange(used_, {}); }
+
+  /// Returns what was asked of the state since the last call, with these fields.
+  OutputNeeds take_needs(const std::vector<std::string>& used) {
+    const bool all_simple = std::all_of(used.begin(), used.end(), is_of_particle);
+    return {{used.begin(), used.end()},
+            std::exchange(asked_forces_, false) || used.empty() || !all_simple};
+  }
 
   /// Returns the snapshot for probes; writers do not need it.
   /// Throws OutsideError if there is no room for it, but InputError if there are faults.
@@ -132,6 +142,7 @@ class BodyAtRest {
   std::vector<std::string_view> fields_;
   std::vector<RegionId> asked_;
   std::vector<std::string> used_;
+  bool asked_forces_ = false;
   std::vector<CrackFace> cut_faces_;
   std::vector<double> positions_;
   std::map<std::uint32_t, std::vector<double>> zeros_;  ///< by number of components
@@ -349,8 +360,6 @@ void try_outputs(Plan& plan, Faults& faults) {
   for (const Stage* stage : writers) {
     if (has_fault(*stage, faults)) continue;
     const ComponentPointer writer = make_component(*stage);
-    rest.take_asked();
-    rest.take_used();
     const auto refused = refusal_of(*stage, "begin", [&](const Complaint& why) {
       return stage->functions<WriterFunctions>().begin(writer.get(), context, why);
     });
@@ -359,6 +368,7 @@ void try_outputs(Plan& plan, Faults& faults) {
       continue;
     }
     plan.used_fields[stage] = rest.take_used();
+    plan.needs[stage] = rest.take_needs(plan.used_fields[stage]);
     if (const auto memory = stage->functions<WriterFunctions>().memory; memory != nullptr)
       plan.writer_bytes[stage] = std::max(0.0, memory(writer.get()));
     if (!faults.empty()) continue;
@@ -376,6 +386,7 @@ void try_outputs(Plan& plan, Faults& faults) {
       return stage->functions<ProbeFunctions>().begin(probe.get(), context, snapshot,
                                                       columns_into(names), why);
     });
+    plan.needs[stage] = rest.take_needs(rest.take_used());
     std::set<std::string_view> different;
     for (const std::string& name : names)
       if (!different.insert(name).second)

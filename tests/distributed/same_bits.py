@@ -172,8 +172,8 @@ def relaxation(scene):
 CASES = [breaking, intact, floats, three_dimensions, partial_cells, volumetric_breaking, plastic, softening, rates, two_laws,
          bcc, random_lattice, contact, cohesive, cohesive_cells, crushed,
          cohesive_implicit, local_steps, added_mass, rest_then_motion, relaxation]
-TIMES = ("wall_seconds", "nanoseconds_per_particle_step", "peak_memory_bytes", "expected_seconds",
-         "expected_seconds_at_most")
+TIMES = ("wall_seconds", "nanoseconds_per_particle_step", "peak_memory_bytes", "peak_memory_bytes_of_ranks",
+         "expected_seconds", "expected_seconds_at_most")
 
 
 def comparable(folder, ranks):
