@@ -151,6 +151,7 @@ std::vector<Particle> particles_in(const Body& body, const Surfaces& surfaces,
   const Sites sites{body, surfaces};
   const RegionMembership<Sites> membership(sites);
   std::vector<Particle> found;
+  if (region.kind == Region::Kind::all) found.reserve(body.particles);  // many: no copies
   for (const Run& run : body.runs)
     for (std::int32_t i = run.begin; i < run.end; ++i)
       if (membership.holds(region, {i, run.j, run.k}))

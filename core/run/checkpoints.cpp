@@ -6,9 +6,11 @@ namespace hyperlattice {
 
 void Checkpoints::save(std::uint64_t steps, double time) {
   drain_();
-  gather_();
   saved_ = std::chrono::steady_clock::now();
-  if (!ranks_.is_first()) return;
+  if (!ranks_.is_first()) {
+    if (steps != plan_.first_step()) pass_();
+    return;
+  }
   stopwatch_.lap();  // a run that continues from here counts this part too
   stopwatch_.output([&] {
     CheckpointHead head = checkpoint_head(plan_, steps == plan_.first_step());

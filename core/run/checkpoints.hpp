@@ -12,10 +12,10 @@ namespace hyperlattice {
 class Checkpoints {
  public:
   /// The first of `ranks` writes. `seconds_between`: of save_if_due(); 0: it never saves. `drain`
-  /// waits until all frames are written. `gather` brings the state up to date. `state` passes all
-  /// that the run needs to an archive.
+  /// waits until all frames are written, and prepares the state in every rank. `state` passes all
+  /// that the run needs to an archive; meanwhile the other ranks call `pass`.
   Checkpoints(const Plan& plan, RunFolder& folder, Stopwatch& stopwatch, Ranks& ranks,
-              double seconds_between, std::function<void()> drain, std::function<void()> gather,
+              double seconds_between, std::function<void()> drain, std::function<void()> pass,
               Visit state)
       : plan_(plan),
         folder_(folder),
@@ -23,7 +23,7 @@ class Checkpoints {
         ranks_(ranks),
         seconds_between_(seconds_between),
         drain_(std::move(drain)),
-        gather_(std::move(gather)),
+        pass_(std::move(pass)),
         state_(std::move(state)) {}
 
   /// Saves the state after this number of steps, at `time`, s; before the first step of the run
@@ -40,7 +40,7 @@ class Checkpoints {
   Stopwatch& stopwatch_;
   Ranks& ranks_;
   double seconds_between_;
-  std::function<void()> drain_, gather_;
+  std::function<void()> drain_, pass_;
   Visit state_;
   std::chrono::steady_clock::time_point saved_ = std::chrono::steady_clock::now();
 };

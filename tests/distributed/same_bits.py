@@ -175,11 +175,18 @@ def pictures(scene):
                               "clip": [0.003, 0, 0, 1, 0, 0], "colour_by": "von_mises", "width": 160, "height": 120})
 
 
+def shown_motion(scene):
+    """Outputs to which the first rank shows fields that it has of the other ranks, without their state."""
+    scene["pipeline"][-3:] = [{"type": "writers.csv", "every": "20 us", "fields": ["height", "velocity", "displacement", "material"]},
+                              {"type": "probes.point", "name": "top", "position": [0.003, 0.003, 0.012], "every": "5 us"},
+                              {"type": "probes.gauge", "from": "z_min", "to": "z_max", "every": "10 us"}]
+
+
 CASES = [breaking, intact, floats, three_dimensions, partial_cells, volumetric_breaking, plastic, softening, rates, two_laws,
          bcc, random_lattice, contact, cohesive, cohesive_cells, crushed,
-         cohesive_implicit, local_steps, added_mass, rest_then_motion, relaxation, pictures]
-TIMES = ("wall_seconds", "nanoseconds_per_particle_step", "peak_memory_bytes", "expected_seconds",
-         "expected_seconds_at_most")
+         cohesive_implicit, local_steps, added_mass, rest_then_motion, relaxation, pictures, shown_motion]
+TIMES = ("wall_seconds", "nanoseconds_per_particle_step", "peak_memory_bytes", "peak_memory_bytes_of_ranks",
+         "expected_seconds", "expected_seconds_at_most")
 
 
 def comparable(folder, ranks):
