@@ -67,8 +67,7 @@ class MovingBlock {
     simulation_->set_velocities(noise(3 * particles, 1), std::vector<double>(particles, 0.0));
     run_folder_ = std::make_unique<RunFolder>(folder.path(), true);
     run_folder_->begin(false, {});
-    outputs_ = std::make_unique<Outputs>(model_, *simulation_, *run_folder_, 0, end_time,
-                                         plan_.threads, alone_);
+    outputs_ = std::make_unique<Outputs>(plan_, *simulation_, *run_folder_, alone_);
     outputs_->begin();
   }
   void show() { outputs_->show_now(); }
@@ -85,15 +84,12 @@ class MovingBlock {
     run_folder_ = std::make_unique<RunFolder>(folder_.path(), false);
     run_folder_->go_on(marks);
     simulation_ = restarted(*simulation_, model_, plan_.threads);
-    outputs_ = std::make_unique<Outputs>(model_, *simulation_, *run_folder_, 0, end_time,
-                                         plan_.threads, alone_);
+    outputs_ = std::make_unique<Outputs>(plan_, *simulation_, *run_folder_, alone_);
     restore(shown, [&](Archive& archive) { outputs_->archive(archive); });
     outputs_->begin();
   }
 
  private:
-  static constexpr double end_time = 1e-4;  // s
-
   Ranks alone_;
   const Plan& plan_;
   const Folder& folder_;

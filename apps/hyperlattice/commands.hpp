@@ -84,7 +84,9 @@ struct SceneArguments {
   ThreadArgument threads;
 
   void declare(CLI::App& command);
-  std::unique_ptr<Plan> plan(Host& host, int ranks = 1, int node_ranks = 1) const;
+  /// `writes`: see make_plan().
+  std::unique_ptr<Plan> plan(Host& host, int ranks = 1, int node_ranks = 1,
+                             bool writes = true) const;
 };
 
 /// The arguments that `analyze` and `calibrate` share.

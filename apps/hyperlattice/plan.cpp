@@ -60,12 +60,13 @@ void SceneArguments::declare(CLI::App& command) {
   threads.declare(command);
 }
 
-std::unique_ptr<Plan> SceneArguments::plan(Host& host, int ranks, int node_ranks) const {
+std::unique_ptr<Plan> SceneArguments::plan(Host& host, int ranks, int node_ranks,
+                                           bool writes) const {
   const ElapsedTime elapsed_time;
   auto read = read_scene(scene, settings, host);
   std::optional<StartState> start;
   if (!from.empty()) start = read_start(from);
-  return make_plan(std::move(read), threads.count(node_ranks), ranks, std::move(start));
+  return make_plan(std::move(read), threads.count(node_ranks), ranks, std::move(start), writes);
 }
 
 Command plan_command(CLI::App& program) {

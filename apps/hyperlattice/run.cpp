@@ -52,22 +52,23 @@ Command run_command(CLI::App& program) {
                    "or none (default: mpi under mpirun or srun, else none)")
       ->type_name("NAME");
   command->add_flag("--quiet", arguments->options.quiet, "no progress lines");
-  return {
-      command, [arguments] {
-        RunOptions& options = arguments->options;
-        if (options.resume && options.overwrite)
-          throw InputError({{"--overwrite", "",
-                             "either --resume or --overwrite: one keeps the run in the folder, "
-                             "the other gives it up"}});
-        choose_directory(options.directory, arguments->scene);
-        Host host;
-        const auto ranks = join_ranks(host, arguments->engine);
-        if (!ranks->is_first()) speak_no_more();  // all ranks find the same
-        std::unique_ptr<Plan> plan;
-        ranks->together([&] { plan = arguments->plan(host, ranks->count(), ranks->on_node()); });
-        stop_gently_when_interrupted();
-        return run(*plan, options, *ranks);
-      }};
+  return {command, [arguments] {
+            RunOptions& options = arguments->options;
+            if (options.resume && options.overwrite)
+              throw InputError({{"--overwrite", "",
+                                 "either --resume or --overwrite: one keeps the run in the folder, "
+                                 "the other gives it up"}});
+            choose_directory(options.directory, arguments->scene);
+            Host host;
+            const auto ranks = join_ranks(host, arguments->engine);
+            if (!ranks->is_first()) speak_no_more();  // all ranks find the same
+            std::unique_ptr<Plan> plan;
+            ranks->together([&] {
+              plan = arguments->plan(host, ranks->count(), ranks->on_node(), ranks->is_first());
+            });
+            stop_gently_when_interrupted();
+            return run(*plan, options, *ranks);
+          }};
 }
 
 }  // namespace hyperlattice

@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace hyperlattice {
@@ -65,11 +64,18 @@ struct Load {
   std::vector<Particle> acts_on(std::uint64_t particles) const;
 };
 
+/// Start velocity, m/s, of each of `count` particles from `first` on.
+struct StartVelocity {
+  Particle first = 0;
+  std::uint64_t count = 0;
+  Vec3 velocity;
+};
+
 /// All loads, in the order of the scene, and what they set together. It reads as a list of loads.
 struct LoadSet {
   std::vector<Load> all;
-  std::vector<std::pair<Particle, Vec3>> start_velocities;  ///< m/s; ascending by particle
-  std::vector<double> corners;                              ///< s; ascending, each once
+  std::vector<StartVelocity> start_velocities;  ///< ascending, each particle at most once
+  std::vector<double> corners;                  ///< s; ascending, each once
   Vec3 acceleration;       ///< sum of the body accelerations of all loads, m/s2
   bool answering = false;  ///< whether a load watches the motion
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -21,13 +22,60 @@ bool is_finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std:
 
 std::string axis_names(Axes axes) { return std::string(axis_set_names[axes - 1]); }
 
+bool is_same(Vec3 a, Vec3 b) {
+  return std::bit_cast<std::array<std::uint64_t, 3>>(a) ==
+         std::bit_cast<std::array<std::uint64_t, 3>>(b);
+}
+
+/// Adds particles behind the others. Particles that follow each other with one velocity, as those
+/// of a body that flies without spin, are one entry.
+void add_to(std::vector<StartVelocity>& all, Particle first, std::uint64_t count, Vec3 velocity) {
+  velocity = Vec3{} + velocity;  // there is one zero
+  if (!all.empty() && all.back().first + all.back().count == first &&
+      is_same(all.back().velocity, velocity))
+    all.back().count += count;
+  else
+    all.push_back({first, count, velocity});
+}
+
+/// Returns entries in the order of the particles, of which each has the sum of its velocities.
+std::vector<StartVelocity> in_order(std::vector<StartVelocity> all) {
+  const auto precedes = [](const StartVelocity& a, const StartVelocity& b) {
+    return a.first < b.first;
+  };
+  const auto overlaps = [](const StartVelocity& a, const StartVelocity& b) {
+    return a.first + a.count > b.first;
+  };
+  if (std::adjacent_find(all.begin(), all.end(), overlaps) == all.end()) return all;
+  std::vector<Particle> bounds;
+  for (const StartVelocity& one : all)
+    bounds.insert(bounds.end(), {one.first, one.first + one.count});
+  std::sort(bounds.begin(), bounds.end());
+  bounds.erase(std::unique(bounds.begin(), bounds.end()), bounds.end());
+  std::vector<StartVelocity> pieces;  // which begin and end at bounds
+  for (const StartVelocity& one : all)
+    for (auto bound = std::lower_bound(bounds.begin(), bounds.end(), one.first);
+         *bound < one.first + one.count; ++bound)
+      pieces.push_back({*bound, *(bound + 1) - *bound, one.velocity});
+  std::stable_sort(pieces.begin(), pieces.end(), precedes);
+  std::vector<StartVelocity> sums;
+  for (auto piece = pieces.begin(); piece != pieces.end();) {
+    const StartVelocity first = *piece;
+    Vec3 velocity;
+    for (; piece != pieces.end() && piece->first == first.first; ++piece)
+      velocity += piece->velocity;
+    add_to(sums, first.first, first.count, velocity);
+  }
+  return sums;
+}
+
 /// Receives the declarations of one load and merges them for each particle.
 struct Collector {
   const Body& body;
   std::unordered_map<Particle, LoadedParticle> particles{};
   std::vector<WatchedParticle> watched{};
   std::set<Particle> watching{};
-  std::map<Particle, Vec3> start_velocities{};
+  std::vector<StartVelocity> start_velocities{};  ///< in the order of the calls
   std::vector<double> corners{};
   double frequency = 0;
   std::uint64_t memory = 0;
@@ -107,7 +155,7 @@ struct Collector {
       take(self, [&](Collector& c) {
         if (particle >= c.body.particles || !is_finite(velocity))
           throw std::range_error("it gives a start velocity that is not finite, or to no particle");
-        c.start_velocities[particle] += velocity;
+        add_to(c.start_velocities, particle, 1, velocity);
       });
     };
     to.receive_watched = [](void* self, Particle particle, bool answered,
@@ -236,7 +284,7 @@ void check_conflicts(Model& model, Faults& faults) {
 }  // namespace
 
 void add_loads(Model& model, RegionIndex& regions, Faults& faults) {
-  std::map<Particle, Vec3> start_velocities;
+  std::vector<StartVelocity> start_velocities;
   TakenCuts taken;
   for (const Stage* stage : model.scene->of(Family::loads)) try {
       Load load;
@@ -266,8 +314,8 @@ void add_loads(Model& model, RegionIndex& regions, Faults& faults) {
       load.particles = in_order(collector.particles);
       load.acceleration = collector.acceleration;
       model.loads.acceleration += load.acceleration;
-      for (const auto& [particle, velocity] : collector.start_velocities)
-        start_velocities[particle] += velocity;
+      for (const StartVelocity& one : in_order(std::move(collector.start_velocities)))
+        add_to(start_velocities, one.first, one.count, one.velocity);
       for (const std::string& warning : collector.warnings)
         model.warnings.push_back(fmt::format("{} ({}): {}", stage->name, stage->pointer, warning));
       if (const auto more = collector.warned - collector.warnings.size(); more > 0)
@@ -283,7 +331,7 @@ void add_loads(Model& model, RegionIndex& regions, Faults& faults) {
       add_all(faults, error);
     }
   check_conflicts(model, faults);
-  model.loads.start_velocities.assign(start_velocities.begin(), start_velocities.end());
+  model.loads.start_velocities = in_order(std::move(start_velocities));
   sort_once(model.loads.corners);
 }
 

@@ -1,5 +1,6 @@
 #include <base/figures.hpp>
 #include <plan/distribution.hpp>
+#include <plan/estimates.hpp>
 #include <plan/text_page.hpp>
 #include <state/halo.hpp>
 
@@ -49,17 +50,25 @@ Distribution distribution_of(const Plan& plan, const Machine& machine) {
   double sites = 0;
   for (const BlockLayout& block : layout->blocks) sites += static_cast<double>(block.sites);
   Distribution found;
-  found.whole = needs_whole(model);
-  found.first_bytes = layout->state_bytes();
+  found.whole = whole_after_steps(plan);
+  if (plan.ranks > 1) {
+    found.whole_in_ranks = whole_in_ranks(plan);
+    found.first_whole = first_needs_whole(plan);
+  }
   found.shares.resize(static_cast<std::size_t>(plan.ranks));
   for (std::size_t b = 0; b < owners.size(); ++b) {
     RankShare& share = found.shares[static_cast<std::size_t>(owners[b])];
     share.particles += particles[b];
-    share.state_bytes += found.first_bytes * static_cast<double>(layout->blocks[b].sites) / sites;
+    share.state_bytes +=
+        layout->state_bytes() * static_cast<double>(layout->blocks[b].sites) / sites;
   }
   std::uint64_t most = 0;
+  double needed = 0;
   for (std::size_t rank = 0; rank < found.shares.size(); ++rank) {
     RankShare& share = found.shares[rank];
+    share.memory_bytes =
+        rank_bytes(plan, *layout, share.state_bytes / layout->state_bytes(), rank == 0);
+    needed = std::max(needed, share.memory_bytes);
     share.sent_bytes =
         found.whole.empty()
             ? static_cast<double>(Halo(model, *layout, owners, static_cast<int>(rank)).bytes_sent())
@@ -72,7 +81,6 @@ Distribution distribution_of(const Plan& plan, const Machine& machine) {
   const double mean = step_of_all(plan) / plan.ranks,
                whole = found.step_seconds + found.exchange_seconds;
   found.efficiency = whole > 0 ? mean / whole : 1;
-  const double needed = plan.memory_bytes;  // of the first rank, the largest
   if (machine.memory && *machine.memory < needed) found.short_of = needed - *machine.memory;
   return found;
 }
@@ -82,16 +90,38 @@ nlohmann::json distribution_json(const Distribution& found) {
   for (const RankShare& share : found.shares)
     shares.push_back({{"particles", share.particles},
                       {"state_bytes", share.state_bytes},
+                      {"memory_bytes", share.memory_bytes},
                       {"sent_bytes_per_step", share.sent_bytes}});
   nlohmann::json json = {{"ranks", shares},
                          {"whole_state_after_each_step", found.whole},
                          {"step_seconds", found.step_seconds},
                          {"exchange_seconds", found.exchange_seconds},
                          {"efficiency", found.efficiency},
-                         {"first_rank_state_bytes", found.first_bytes}};
+                         {"whole_state_in_each_rank", found.whole_in_ranks},
+                         {"whole_state_in_first_rank", found.first_whole}};
   if (found.short_of) json["memory_short_of_bytes"] = *found.short_of;
   return json;
 }
+
+namespace {
+
+std::string memory_text(const Distribution& found) {
+  double others = 0, state = 0;
+  for (const RankShare& share : found.shares) {
+    if (&share != &found.shares.front()) others = std::max(others, share.memory_bytes);
+    state = std::max(state, share.state_bytes);
+  }
+  std::string text = bytes_text(found.shares.front().memory_bytes) + " in the first rank";
+  if (others > 0) text += fmt::format(", up to {} in the others", bytes_text(others));
+  text += fmt::format("; a rank's own part of the state has up to {}", bytes_text(state));
+  if (!found.whole_in_ranks.empty())
+    text += ". Each one holds the whole state, because " + found.whole_in_ranks;
+  else if (!found.first_whole.empty())
+    text += ". The first one gets the whole state for outputs, because " + found.first_whole;
+  return text;
+}
+
+}  // namespace
 
 std::string distribution_text(const Distribution& found) {
   const auto [least, most] =
@@ -103,9 +133,7 @@ std::string distribution_text(const Distribution& found) {
   page.section("Ranks");
   page.line("ranks", fmt::format("{}, each with {} to {} particles", found.shares.size(),
                                  count_text(least->particles), count_text(most->particles)));
-  page.line("memory", fmt::format("up to {} of state in a rank; the first one holds all, {}, if "
-                                  "the run writes frames or checkpoints",
-                                  bytes_text(most->state_bytes), bytes_text(found.first_bytes)));
+  page.line("memory", memory_text(found));
   page.line("exchange",
             fmt::format("up to {} from a rank after each step{}", bytes_text(sent),
                         found.whole.empty() ? "" : ": the whole state, because " + found.whole));
@@ -114,7 +142,7 @@ std::string distribution_text(const Distribution& found) {
                         "to exchange",
                         100 * found.efficiency, found.step_seconds, found.exchange_seconds));
   if (found.short_of)
-    page.line("does not fit", fmt::format("the first rank lacks {}", bytes_text(*found.short_of)));
+    page.line("does not fit", fmt::format("a rank lacks {}", bytes_text(*found.short_of)));
   return page.take();
 }
 

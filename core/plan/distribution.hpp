@@ -22,17 +22,20 @@ struct Machine {
 /// The part of one rank.
 struct RankShare {
   std::uint64_t particles = 0;
-  double state_bytes = 0;  ///< of its blocks
-  double sent_bytes = 0;   ///< in a step
+  double state_bytes = 0;   ///< of its blocks
+  double memory_bytes = 0;  ///< at most, with the model, the program, and outputs in the first rank
+  double sent_bytes = 0;    ///< in a step
 };
 
 struct Distribution {
-  std::vector<RankShare> shares;   ///< of each rank
-  std::string whole;               ///< why every rank gets the whole state after each step; or ""
-  double step_seconds = 0;         ///< of the rank with the most particles, without exchange
-  double exchange_seconds = 0;     ///< after each step
-  double efficiency = 1;           ///< mean share of its time in which a rank computes
-  double first_bytes = 0;          ///< of the whole state, which the first rank holds for outputs
+  std::vector<RankShare> shares;  ///< of each rank
+  std::string whole;              ///< why every rank gets the whole state after each step; or ""
+  double step_seconds = 0;        ///< of the rank with the most particles, without exchange
+  double exchange_seconds = 0;    ///< after each step
+  double efficiency = 1;          ///< mean share of its time in which a rank computes
+  std::string whole_in_ranks;     ///< why every rank holds the whole state; "" if it does not
+  /// Why the first rank gets the whole state for outputs; "" if it does not.
+  std::string first_whole;
   std::optional<double> short_of;  ///< memory that a rank lacks, bytes
 };
 

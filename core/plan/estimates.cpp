@@ -1,15 +1,19 @@
 #include <model/nodal_volumes.hpp>
 #include <plan/estimates.hpp>
 #include <plan/fields.hpp>
+#include <state/block.hpp>
 #include <state/damage_records.hpp>
 #include <state/halo.hpp>
 #include <state/inside_out.hpp>
 #include <state/layout.hpp>
 #include <state/nodal_pressures.hpp>
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <numeric>
 #include <set>
 
 namespace hyperlattice {
@@ -66,7 +70,7 @@ double output_numbers(const Plan& plan) {
     if (plan.threads == 1 || used == plan.used_fields.end() || used->second.empty())
       kept.insert(fields.begin(), fields.end());
   }
-  if (plan.asked_fields.empty()) return 0;
+  if (plan.asked_fields.empty() || !plan.writes) return 0;
   double numbers = 3 + numbers_of(plan, kept) + working_numbers(asked);
   if (plan.threads > 1) numbers += queued_frames * numbers_of(plan, queued_fields(plan));
   return numbers;
@@ -74,6 +78,8 @@ double output_numbers(const Plan& plan) {
 
 /// The memory of the program and its libraries without a body, bytes.
 constexpr double program_bytes = 14e6;
+/// The same of an engine and its libraries.
+constexpr double engine_bytes = 10e6;
 
 double particles_of(const Plan& plan) { return static_cast<double>(plan.model->body.particles); }
 
@@ -123,8 +129,8 @@ double model_bytes(const Model& model) {
                           model.body.listed.positions.size() * sizeof(Vec3) + runs * sizeof(Run) +
                           model.body.row_runs.size() * sizeof(std::size_t) +
                           model.body.cells.partial().size() * sizeof(PartialCell) +
-                          model.kinds.material_of.size()) +
-      model.kinds.mixtures.bytes();
+                          model.loads.start_velocities.size() * sizeof(StartVelocity)) +
+      model.kinds.material_of.bytes() + model.kinds.mixtures.bytes();
   if (model.nodal_volumes)
     bytes += model.nodal_volumes->bytes() + NodalPressures::bytes(*model.nodal_volumes);
   if (!model.cohesive.empty())
@@ -135,20 +141,56 @@ double model_bytes(const Model& model) {
   return bytes;
 }
 
-void estimate_memory(Plan& plan) {
+namespace {
+
+/// Returns the bytes of what the ranks share: the blocks with their scratch.
+double block_bytes(const Layout& layout) { return layout.state_bytes() + layout.scratch_bytes(); }
+
+/// Returns the largest part of the places of all blocks that a rank has.
+double largest_part(const Plan& plan, const Layout& layout) {
+  const std::vector<int> owners = owners_of(layout.blocks.size(), plan.ranks);
+  std::vector<double> sites(static_cast<std::size_t>(plan.ranks));
+  for (std::size_t b = 0; b < owners.size(); ++b)
+    sites[static_cast<std::size_t>(owners[b])] += static_cast<double>(layout.blocks[b].sites);
+  return *std::max_element(sites.begin(), sites.end()) /
+         std::accumulate(sites.begin(), sites.end(), 0.0);
+}
+
+}  // namespace
+
+std::string whole_after_steps(const Plan& plan) {
+  for (const PlannedStage& stage : plan.stages)
+    if (stage.plan.local.parts > 1) return fmt::format("{} has local steps", stage.stage->name);
+  return needs_whole(*plan.model);
+}
+
+std::string whole_in_ranks(const Plan& plan) {
+  for (const PlannedStage& stage : plan.stages)
+    if (stage.plan.at_rest || stage.plan.bytes_per_site > 0)
+      return fmt::format("{} works on the whole body", stage.stage->name);
+  return whole_after_steps(plan);
+}
+
+std::string first_needs_whole(const Plan& plan) {
+  for (const auto& [output, needs] : plan.needs)
+    if (needs.state)
+      return fmt::format("{} asks for more than the motion of particles", output->name);
+  return "";
+}
+
+double rank_bytes(const Plan& plan, const Layout& layout, double part, bool writes) {
   const Model& model = *plan.model;
   const double particles = particles_of(plan);
-  const std::unique_ptr<Layout> layout = make_layout(model, plan.blocks);
-  plan.bytes_per_particle = layout->state_bytes() / particles;
-
   double bytes = model_bytes(model);
+  constexpr std::size_t boundary_particle =
+      sizeof(BoundaryParticle) + sizeof(Contribution) + sizeof(Vec3);
   for (const Load& load : model.loads)
-    bytes +=
-        static_cast<double>(load.particles.size() * sizeof(BoundaryParticle) +
-                            load.watched.size() * (sizeof(BoundaryParticle) + 2 * sizeof(Vec3)) +
-                            load.memory * sizeof(double));
-  for (const BlockLayout& block : layout->blocks)
-    bytes += static_cast<double>(block.rows.size() * 2 * sizeof(Row));
+    bytes += static_cast<double>(load.particles.size() * boundary_particle +
+                                 load.watched.size() * (boundary_particle + 2 * sizeof(Vec3)) +
+                                 load.memory * sizeof(double));
+  for (const BlockLayout& block : layout.blocks)
+    bytes += static_cast<double>(block.rows.size() *
+                                 (2 * sizeof(Row) + sizeof(RowSums) + sizeof(double)));
 
   double added_bytes = 0;  // of added mass: lists, and a boundary particle each
   for (const PlannedStage& stage : plan.stages)
@@ -159,8 +201,6 @@ void estimate_memory(Plan& plan) {
                               (sizeof(BoundaryParticle) + 4 * sizeof(MassScaling::Heavy))));
   bytes += added_bytes;
 
-  // Writers write one after the other, but may keep what they have allocated.
-  for (const auto& [writer, allocated] : plan.writer_bytes) bytes += allocated;
   double solver_bytes = 0;
   for (const PlannedStage& stage : plan.stages)
     solver_bytes = std::max(solver_bytes, stage.plan.bytes_per_site);
@@ -168,9 +208,22 @@ void estimate_memory(Plan& plan) {
   solver_bytes *= model.body.is_listed()
                       ? particles
                       : (high.i - low.i + 1.0) * (high.j - low.j + 1.0) * (high.k - low.k + 1.0);
-  plan.memory_bytes = program_bytes + solver_bytes + layout->state_bytes() +
-                      layout->scratch_bytes() + bytes + CellWatch::bytes(model) +
-                      output_numbers(plan) * sizeof(double) * particles;
+  bytes += program_bytes + solver_bytes + CellWatch::bytes(model);
+  if (plan.ranks > 1) bytes += engine_bytes;
+  bool is_whole = !whole_in_ranks(plan).empty();
+  if (writes) {
+    // Writers write one after the other, but may keep what they have allocated.
+    for (const auto& [writer, allocated] : plan.writer_bytes) bytes += allocated;
+    bytes += output_numbers(plan) * sizeof(double) * particles;
+    is_whole = is_whole || !first_needs_whole(plan).empty();
+  }
+  return bytes + block_bytes(layout) * (is_whole ? 1 : part);
+}
+
+void estimate_memory(Plan& plan) {
+  const std::unique_ptr<Layout> layout = make_layout(*plan.model, plan.blocks);
+  plan.bytes_per_particle = layout->state_bytes() / particles_of(plan);
+  plan.memory_bytes = rank_bytes(plan, *layout, largest_part(plan, *layout), plan.writes);
 }
 
 void estimate_output(Plan& plan) {

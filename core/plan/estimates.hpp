@@ -2,6 +2,7 @@
 #pragma once
 
 #include <plan/plan.hpp>
+#include <state/layout.hpp>
 
 namespace hyperlattice {
 
@@ -9,8 +10,17 @@ namespace hyperlattice {
 /// beside the next steps.
 inline constexpr std::size_t queued_frames = 2;
 
-/// Sets bytes_per_particle and memory_bytes of the plan.
+/// Sets bytes_per_particle of the plan, and memory_bytes: of this rank, if its part is the largest.
 void estimate_memory(Plan& plan);
+/// Returns the bytes of a rank that has this part of the places of all blocks, 0 to 1. `writes`: it
+/// is the first one.
+double rank_bytes(const Plan& plan, const Layout& layout, double part, bool writes);
+/// Returns why every rank gets the whole state after each step, as a clause; "" if it does not.
+std::string whole_after_steps(const Plan& plan);
+/// Returns why every rank holds the whole state, as a clause; "" if it does not.
+std::string whole_in_ranks(const Plan& plan);
+/// Returns why the first rank gets the whole state for outputs, as a clause; "" if it does not.
+std::string first_needs_whole(const Plan& plan);
 /// Sets output_bytes of the plan.
 void estimate_output(Plan& plan);
 /// Sets expected_seconds of the plan from the cost of kernels on a common server processor;

@@ -1,5 +1,6 @@
 #include <plan/fields.hpp>
 
+#include <hyperlattice/fields.hpp>
 #include <hyperlattice/output.hpp>
 
 #include <spdlog/fmt/fmt.h>
@@ -57,6 +58,11 @@ bool has_field(const Model& model, std::string_view name) {
 bool is_measured(std::string_view name) {
   const FieldInfo* field = find_field(name);
   return field != nullptr && field->is_measured;
+}
+
+bool is_of_particle(std::string_view name) {
+  constexpr std::string_view moving[] = {"displacement", "velocity", "height"};
+  return is_one_of(moving, name) || is_constant_field(name);
 }
 
 namespace {

@@ -25,6 +25,10 @@ bool has_field(const Model& model, std::string_view name);
 /// Returns whether a field is computed from the forces or the motion of all springs.
 bool is_measured(std::string_view name);
 
+/// Returns whether a field follows from the displacement, velocity or height of each particle by
+/// itself, or does not change.
+bool is_of_particle(std::string_view name);
+
 /// For each writer and probe, the fields that any of its options names.
 using AskedFields = std::map<const Stage*, std::vector<std::string>>;
 AskedFields asked_fields(const Scene& scene);

@@ -1,8 +1,6 @@
 #include <base/errors.hpp>
-#include <base/figures.hpp>
-#include <model/acted_particles.hpp>
 #include <model/build.hpp>
-#include <model/section.hpp>
+#include <plan/body_at_rest.hpp>
 #include <plan/columns.hpp>
 #include <plan/fields.hpp>
 #include <plan/output_trial.hpp>
@@ -10,9 +8,7 @@
 #include <plan/writer_warning.hpp>
 #include <process/file_limit.hpp>
 #include <process/lack_of_memory.hpp>
-#include <process/room.hpp>
 #include <scene/stage_call.hpp>
-#include <state/crack_faces.hpp>
 
 #include <hyperlattice/output.hpp>
 
@@ -29,122 +25,6 @@
 
 namespace hyperlattice {
 namespace {
-
-/// The body at rest. All fields of the run are zero.
-class BodyAtRest {
- public:
-  explicit BodyAtRest(const Model& model)
-      : model_(model),
-        regions_(model.body, model.scene->regions),
-        acted_(model, regions_),
-        fields_(fields_of(model)) {}
-
-  OutputContext context() {
-    OutputContext context;
-    context.title = model_.scene->title;
-    context.fields = fields_;
-    context.self = this;
-    context.region_particles = [](void* self, RegionId region) noexcept {
-      return PluginCall::answer(std::span<const Particle>(), [&] {
-        auto& rest = *static_cast<BodyAtRest*>(self);
-        rest.asked_.push_back(region);
-        return rest.regions_.particles(region);
-      });
-    };
-    context.acted_particles = [](void* self, LoadOrRegion of) noexcept {
-      return PluginCall::answer(std::span<const Particle>(), [&] {
-        return static_cast<BodyAtRest*>(self)->acted_.particles(of);
-      });
-    };
-    context.external_forces = [](void*, LoadOrRegion) noexcept { return ForcesId(); };
-    context.cut_section = [](void* self, Vec3 point, Vec3 normal, RegionId region) noexcept {
-      return PluginCall::answer(Section(), [&] {
-        auto& rest = *static_cast<BodyAtRest*>(self);
-        const PlaneSection section =
-            cut(rest.model_, point, normal, rest.regions_.particles(region));
-        return Section{{}, section.springs.size(), section.area};
-      });
-    };
-    context.get_cut_faces = [](void* self) noexcept {
-      return PluginCall::answer(std::span<const CrackFace>(), [&] {
-        auto& rest = *static_cast<BodyAtRest*>(self);
-        if (rest.cut_faces_.empty()) rest.cut_faces_ = cut_faces(rest.model_);
-        return std::span<const CrackFace>(rest.cut_faces_);
-      });
-    };
-    context.use_field = [](void* self, std::string_view name) noexcept {
-      PluginCall::answer([&] {
-        auto& rest = *static_cast<BodyAtRest*>(self);
-        if (has_field(rest.model_, name)) rest.used_.emplace_back(name);
-      });
-    };
-    context.receive_warning = [](void* self, std::string_view sentence) noexcept {
-      PluginCall::answer([&] {
-        auto& warnings = static_cast<BodyAtRest*>(self)->warnings_;
-        if (warnings.size() < most_writer_warnings) warnings.emplace_back(sentence);
-      });
-    };
-    return context;
-  }
-
-  std::span<const std::string_view> fields() const { return fields_; }
-  std::span<const Particle> particles(RegionId region) { return regions_.particles(region); }
-  /// Returns the regions that were asked for since the last call.
-  std::vector<RegionId> take_asked() { return std::exchange(asked_, {}); }
-  /// Returns the fields that were named since the last call.
-  std::vector<std::string> take_used() { return std::exchange(used_, {}); }
-  /// Returns the warnings that were given since the last call.
-  std::vector<std::string> take_warnings() { return std::exchange(warnings_, {}); }
-
-  /// Returns the snapshot for probes; writers do not need it.
-  /// Throws OutsideError if there is no room for it, but InputError if there are faults.
-  Snapshot snapshot(const Faults& faults) {
-    check_room(faults);
-    positions_.reserve(3 * model_.body.particles);
-    for (Particle particle = 0; particle < model_.body.particles; ++particle) {
-      const Vec3 x = model_.body.position(particle);
-      positions_.insert(positions_.end(), {x.x, x.y, x.z});
-    }
-    Snapshot snapshot;
-    snapshot.particles = model_.body.particles;
-    snapshot.spacing = model_.body.grid.spacing;
-    snapshot.positions = positions_;
-    snapshot.self = this;
-    snapshot.get_field = [](void* self, std::string_view name, Field& field) noexcept {
-      return PluginCall::answer(false, [&] {
-        auto& rest = *static_cast<BodyAtRest*>(self);
-        if (!has_field(rest.model_, name)) return false;
-        field.components = components_of(*field_of(rest.model_, name));
-        std::vector<double>& zeros = rest.zeros_[field.components];
-        zeros.resize(field.components * rest.model_.body.particles);
-        field.values = zeros;
-        return true;
-      });
-    };
-    return snapshot;
-  }
-
- private:
-  void check_room(const Faults& faults) const {
-    const double needed = 6.0 * sizeof(double) * static_cast<double>(model_.body.particles);
-    const Room room = memory_room();
-    if (needed <= room.bytes) return;
-    faults.throw_if_any();
-    throw OutsideError(
-        fmt::format("not enough memory to try the probes: {} are needed, {} left; {}",
-                    bytes_text(needed), bytes_text(room.bytes), room.bound));
-  }
-
-  const Model& model_;
-  RegionIndex regions_;
-  ActedParticles acted_;
-  std::vector<std::string_view> fields_;
-  std::vector<RegionId> asked_;
-  std::vector<std::string> used_, warnings_;
-  std::vector<CrackFace> cut_faces_;
-  std::vector<double> positions_;
-  std::map<std::uint32_t, std::vector<double>> zeros_;  ///< by number of components
-};
 
 /// A few particles, spread over all that a writer shows, in a motion whose numbers have all digits.
 class ParticleSample {
@@ -358,9 +238,7 @@ void try_outputs(Plan& plan, Faults& faults) {
   for (const Stage* stage : writers) {
     if (has_fault(*stage, faults)) continue;
     const ComponentPointer writer = make_component(*stage);
-    rest.take_asked();
-    rest.take_used();
-    rest.take_warnings();
+    rest.forget();
     const auto refused = refusal_of(*stage, "begin", [&](const Complaint& why) {
       return stage->functions<WriterFunctions>().begin(writer.get(), context, why);
     });
@@ -368,13 +246,14 @@ void try_outputs(Plan& plan, Faults& faults) {
       add_all(faults, objection(*plan.scene, *stage, *refused));
       continue;
     }
-    plan.used_fields[stage] = rest.take_used();
-    for (const std::string& warning : rest.take_warnings())
+    plan.used_fields[stage] = rest.used_fields();
+    plan.needs[stage] = rest.needs();
+    for (const std::string& warning : rest.warnings())
       plan.model->warnings.push_back(writer_warning(*stage, warning));
     if (const auto memory = stage->functions<WriterFunctions>().memory; memory != nullptr)
       plan.writer_bytes[stage] = std::max(0.0, memory(writer.get()));
     if (!faults.empty()) continue;
-    if (const auto cost = frame_cost(*plan.model, rest, *stage, rest.take_asked()))
+    if (const auto cost = frame_cost(*plan.model, rest, *stage, rest.asked_regions()))
       plan.frame_costs[stage] = *cost;
   }
   if (probes.empty()) return;
@@ -382,12 +261,14 @@ void try_outputs(Plan& plan, Faults& faults) {
   for (const Stage* stage : probes) {
     if (has_fault(*stage, faults)) continue;
     const ComponentPointer probe = make_component(*stage);
+    rest.forget();
     std::vector<std::string>& names =
         plan.tables.emplace_back(PlannedTable{stage->name, {"time"}}).columns;
     const auto refused = refusal_of(*stage, "begin", [&](const Complaint& why) {
       return stage->functions<ProbeFunctions>().begin(probe.get(), context, snapshot,
                                                       columns_into(names), why);
     });
+    plan.needs[stage] = rest.needs();
     std::set<std::string_view> different;
     for (const std::string& name : names)
       if (!different.insert(name).second)

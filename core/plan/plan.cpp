@@ -163,7 +163,7 @@ void fill(Plan& plan, Threads threads) {
   if (faults.empty()) check_precision(plan, faults);
   if (faults.empty()) check_resolution(plan, faults);
   if (faults.empty() && !plan.stages.empty()) warn_of_idle_loads(plan);
-  try_outputs(plan, faults);
+  if (plan.writes) try_outputs(plan, faults);
   faults.throw_if_any();
   estimate_output(plan);
   set_threads(plan, threads.of(plan.model->body.particles));
@@ -173,12 +173,13 @@ void fill(Plan& plan, Threads threads) {
 }  // namespace
 
 std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, Threads threads, int ranks,
-                                std::optional<StartState> start_state) {
+                                std::optional<StartState> start_state, bool writes) {
   const auto start = std::chrono::steady_clock::now();
   auto plan = std::make_unique<Plan>();
   plan->scene = std::move(scene);
   plan->ranks = ranks;
   plan->start = std::move(start_state);
+  plan->writes = writes;
   try {
     fill(*plan, threads);
   } catch (const InputError& error) {

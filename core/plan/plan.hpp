@@ -17,6 +17,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,13 @@ struct PlannedTable {
   std::vector<std::string> columns;
 };
 
+/// What a writer or probe asks of the state, as its begin() tells.
+struct OutputNeeds {
+  std::set<std::string, std::less<>> fields;
+  /// It asks for more than fields that follow from the motion of each particle, or named none.
+  bool state = true;
+};
+
 /// The cost of a writer's frame when the body moves, from frames of a few of its particles.
 struct FrameCost {
   double bytes = 0, seconds = 0;
@@ -58,16 +66,18 @@ struct Plan {
   std::map<const Stage*, double> writer_bytes;    ///< of memory, of the writers that state it
   std::unique_ptr<Ranks> alone;   ///< of a run in this process; outlives its simulation
   int ranks = 1;                  ///< processes of the run
+  bool writes = true;             ///< whether this is the rank with the outputs
   int threads = 1;                ///< of each rank
   int blocks = 1;                 ///< of the state, in all ranks together
   double bytes_per_particle = 0;  ///< of the state that the kernel works on
-  double memory_bytes = 0;        ///< of the state, the model and the scratch
+  double memory_bytes = 0;        ///< that this process needs
   double output_bytes = 0;        ///< estimated
   double setup_seconds = 0;       ///< spent on building the model
   double expected_seconds = 0;    ///< estimated from the kernel's cost on a common machine
   std::vector<LeftOut> left_out;
-  AskedFields used_fields;          ///< of each writer: fields that it names in begin()
-  std::optional<StartState> start;  ///< none: the run starts from the body at rest
+  AskedFields used_fields;                    ///< of each writer: fields that it names in begin()
+  std::map<const Stage*, OutputNeeds> needs;  ///< of the outputs; only if this rank writes
+  std::optional<StartState> start;            ///< none: the run starts from the body at rest
 
   std::uint64_t steps() const;
   double end_time() const;
@@ -78,9 +88,9 @@ struct Plan {
 
 /// Validates everything and writes nothing. Throws as read_scene and build_model do, and InputError
 /// if a solver refuses its time step, or if `start` is the state of another body. `threads`: of
-/// each rank.
+/// each rank. `writes`: whether outputs are tried; of the ranks of a run only the first one does.
 std::unique_ptr<Plan> make_plan(std::unique_ptr<Scene> scene, Threads threads, int ranks = 1,
-                                std::optional<StartState> start = {});
+                                std::optional<StartState> start = {}, bool writes = true);
 
 /// Sets another number of threads of each rank, with a block of the state for each thread, and
 /// repeats the estimates that depend on it.

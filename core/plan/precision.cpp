@@ -14,27 +14,34 @@ namespace {
 /// particle of a rotating body moves by no more than the diameter of its circle.
 double started(const Model& model, double end) {
   const auto vector = [](Vec3 v) { return Eigen::Vector3d(v.x, v.y, v.z); };
-  const double count = static_cast<double>(model.loads.start_velocities.size());
+  const auto for_each = [&](const auto& visit) {
+    for (const StartVelocity& one : model.loads.start_velocities)
+      for (Particle particle = one.first; particle < one.first + one.count; ++particle)
+        visit(particle, one.velocity);
+  };
+  double count = 0;
+  for (const StartVelocity& one : model.loads.start_velocities)
+    count += static_cast<double>(one.count);
   Eigen::Vector3d centre = Eigen::Vector3d::Zero(), drift = centre, momentum = centre;
-  for (const auto& [particle, velocity] : model.loads.start_velocities) {
+  for_each([&](Particle particle, Vec3 velocity) {
     centre += vector(model.body.position(particle)) / count;
     drift += vector(velocity) / count;
-  }
+  });
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   double radius = 0;
-  for (const auto& [particle, velocity] : model.loads.start_velocities) {
+  for_each([&](Particle particle, Vec3 velocity) {
     const Eigen::Vector3d arm = vector(model.body.position(particle)) - centre;
     momentum += arm.cross(vector(velocity));
     inertia += arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose();
     radius = std::max(radius, arm.norm());
-  }
+  });
   const Eigen::Vector3d spin = inertia.completeOrthogonalDecomposition().solve(momentum);
   double travel = 0;
-  for (const auto& [particle, velocity] : model.loads.start_velocities) {
+  for_each([&](Particle particle, Vec3 velocity) {
     const Eigen::Vector3d turning = spin.cross(vector(model.body.position(particle)) - centre);
     const double other = (vector(velocity) - drift - turning).norm() + drift.norm();
     travel = std::max(travel, other * end + std::min(turning.norm() * end, 2 * radius));
-  }
+  });
   return travel;
 }
 

@@ -15,9 +15,11 @@ double Checkpoints::first_interval(const Plan& plan, double seconds_between) {
 
 void Checkpoints::save(std::uint64_t steps, double time) {
   drain_();
-  gather_();
   const auto began = saved_ = std::chrono::steady_clock::now();
-  if (!ranks_.is_first()) return;
+  if (!ranks_.is_first()) {
+    if (steps != plan_.first_step()) pass_();
+    return;
+  }
   stopwatch_.lap();  // a run that continues from here counts this part too
   stopwatch_.output([&] {
     CheckpointHead head = checkpoint_head(plan_, steps == plan_.first_step());
@@ -29,7 +31,7 @@ void Checkpoints::save(std::uint64_t steps, double time) {
     write_checkpoint(folder_.directory(), head, state_);
   });
   saved_ = std::chrono::steady_clock::now();
-  if (steps > 0)
+  if (steps != plan_.first_step())
     interval_ = std::min(seconds_between_, std::max(2 * interval_, share * seconds_since(began)));
 }
 

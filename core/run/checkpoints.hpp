@@ -13,11 +13,11 @@ class Checkpoints {
  public:
   /// The first of `ranks` writes. `seconds_between`: of save_if_due(), at most; 0: it never saves.
   /// `is_sound`: whether the state has not gone wrong, so that save_if_due() may save it. `drain`
-  /// waits until all frames are written. `gather` brings the state up to date. `state` passes all
-  /// that the run needs to an archive.
+  /// waits until all frames are written, and prepares the state in every rank. `state` passes all
+  /// that the run needs to an archive; meanwhile the other ranks call `pass`.
   Checkpoints(const Plan& plan, RunFolder& folder, Stopwatch& stopwatch, Ranks& ranks,
               double seconds_between, std::function<bool()> is_sound, std::function<void()> drain,
-              std::function<void()> gather, Visit state)
+              std::function<void()> pass, Visit state)
       : plan_(plan),
         folder_(folder),
         stopwatch_(stopwatch),
@@ -26,7 +26,7 @@ class Checkpoints {
         interval_(first_interval(plan, seconds_between)),
         is_sound_(std::move(is_sound)),
         drain_(std::move(drain)),
-        gather_(std::move(gather)),
+        pass_(std::move(pass)),
         state_(std::move(state)) {}
 
   /// Saves the state after this number of steps, at `time`, s; before the first step of the run
@@ -52,7 +52,7 @@ class Checkpoints {
   Ranks& ranks_;
   double seconds_between_, interval_;  // s
   std::function<bool()> is_sound_;
-  std::function<void()> drain_, gather_;
+  std::function<void()> drain_, pass_;
   Visit state_;
   std::chrono::steady_clock::time_point saved_ = std::chrono::steady_clock::now();
 };

@@ -15,24 +15,24 @@
 
 namespace hyperlattice {
 
-Outputs::Outputs(const Model& model, Simulation& simulation, RunFolder& folder, double start_time,
-                 double end_time, int threads, Ranks& ranks)
-    : model_(model),
+Outputs::Outputs(const Plan& plan, Simulation& simulation, RunFolder& folder, Ranks& ranks)
+    : plan_(plan),
+      model_(*plan.model),
       simulation_(simulation),
-      source_(model, simulation),
+      source_(model_, simulation),
       folder_(folder),
-      threads_(threads),
       ranks_(ranks),
-      fields_(fields_of(model)),
-      regions_(model.body, model.scene->regions),
-      acted_(model, regions_) {
+      fields_(fields_of(model_)),
+      regions_(model_.body, model_.scene->regions),
+      acted_(model_, regions_) {
   for (const Family family : {Family::writers, Family::probes})
-    for (const Stage* stage : model.scene->of(family)) {
+    for (const Stage* stage : model_.scene->of(family)) {
       Output& output = outputs_.emplace_back();
       output.owner = this;
       output.stage = stage;
-      output.schedule = Schedule(start_time, output_interval(*stage, end_time - start_time),
-                                 stage->cadence.first);
+      const double start = plan.start_time();
+      output.schedule =
+          Schedule(start, output_interval(*stage, plan.end_time() - start), stage->cadence.first);
     }
 }
 
@@ -45,8 +45,11 @@ void Outputs::archive(Archive& archive) {
 
 void Outputs::begin() {
   if (outputs_.empty()) return;
-  simulation_.gather_in_first();
-  if (!ranks_.is_first()) return;
+  share_needs();
+  std::vector<Output*> all;
+  for (Output& output : outputs_) all.push_back(&output);
+  bring_state(all);
+  if (!ranks_.is_first()) return source_.renew();
   const Ranks::Solo solo(ranks_);
   for (Output& output : outputs_) begin(output);
   cut_faces_ = {};
@@ -54,14 +57,53 @@ void Outputs::begin() {
   const bool any = std::any_of(outputs_.begin(), outputs_.end(), [](const Output& output) {
     return output.table == nullptr && !output.fields.empty();
   });
-  if (!any || threads_ == 1) return;
+  if (!any || plan_.threads == 1) return;
   try {
-    queue_.emplace(model_, threads_);
+    queue_.emplace(model_, plan_.threads);
   } catch (const OutsideError& error) {
     spdlog::info("frames are written between the steps: {}", error.what());
   } catch (const std::system_error& error) {
     spdlog::info("frames are written between the steps: {}", error.what());
   }
+}
+
+/// Lets every rank know what each output needs of the state. The first rank knows it from the plan.
+void Outputs::share_needs() {
+  if (ranks_.is_alone()) return;
+  using Motion = Simulation::Motion;
+  static constexpr std::pair<const char*, Motion> names[] = {{"displacement", Motion::displacement},
+                                                             {"velocity", Motion::velocity},
+                                                             {"height", Motion::height}};
+  constexpr std::uint8_t state_bit = 1U << 7;
+  std::vector<std::uint8_t> bits;
+  for (const Output& output : outputs_) {
+    std::uint8_t& of = bits.emplace_back(state_bit);
+    const auto needs = plan_.needs.find(output.stage);
+    if (needs == plan_.needs.end() || needs->second.state) continue;
+    of = 0;
+    for (const auto& [name, motion] : names)
+      if (needs->second.fields.contains(name))
+        of = static_cast<std::uint8_t>(of | 1U << static_cast<unsigned>(motion));
+  }
+  ranks_.meet(Ranks::Meeting::state);
+  ranks_.spread(0, std::as_writable_bytes(std::span(bits)));
+  auto of = bits.begin();
+  for (Output& output : outputs_) {
+    output.needs_state = (*of & state_bit) != 0;
+    for (const auto& [name, motion] : names)
+      if ((*of >> static_cast<unsigned>(motion) & 1U) != 0) output.motions.insert(motion);
+    ++of;
+  }
+}
+
+/// Brings to the first rank what these outputs need. All ranks must call it.
+void Outputs::bring_state(const std::vector<Output*>& shown) {
+  if (ranks_.is_alone()) return;
+  if (std::any_of(shown.begin(), shown.end(), [](const Output* one) { return one->needs_state; }))
+    return simulation_.gather_in_first();
+  std::set<Simulation::Motion> motions;
+  for (const Output* one : shown) motions.insert(one->motions.begin(), one->motions.end());
+  source_.collect(motions);
 }
 
 void Outputs::begin(Output& output) {
@@ -101,6 +143,7 @@ void Outputs::offer_forces(OutputContext& context) {
   context.external_forces = [](void* self, LoadOrRegion of) noexcept {
     return PluginCall::answer(ForcesId(), [&] {
       auto& outputs = *static_cast<Output*>(self)->owner;
+      outputs.source_.must_have_state("forces");
       const std::span<const Particle> particles = outputs.acted_.particles(of);  // checks it
       return of.is_load()
                  ? outputs.simulation_.force_sums().follow(static_cast<std::size_t>(of.load))
@@ -110,6 +153,7 @@ void Outputs::offer_forces(OutputContext& context) {
   context.cut_section = [](void* self, Vec3 point, Vec3 normal, RegionId region) noexcept {
     return PluginCall::answer(Section(), [&] {
       auto& outputs = *static_cast<Output*>(self)->owner;
+      outputs.source_.must_have_state("the forces through a section");
       const PlaneSection section =
           cut(outputs.model_, point, normal, outputs.regions_.particles(region));
       return Section{outputs.simulation_.force_sums().follow(section), section.springs.size(),
@@ -205,10 +249,12 @@ void Outputs::show_last() {
 /// Shows the present state to outputs. All ranks bring it up to date, and the first one shows it.
 void Outputs::show_to(const std::vector<Output*>& due) {
   if (due.empty()) return;
-  simulation_.gather_in_first();
+  bring_state(due);
   if (ranks_.is_first()) {
     const Ranks::Solo solo(ranks_);
     show_here(due);
+  } else {
+    source_.renew();
   }
   for (Output* output : due) {
     if (output->is_probe()) output->shown.clear();

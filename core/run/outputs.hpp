@@ -18,12 +18,9 @@ namespace hyperlattice {
 /// frame.
 class Outputs {
  public:
-  /// `start_time` and `end_time`, s, are the run's; the time between them sets the interval of
-  /// outputs that have none. With more than
-  /// one of `threads`, frames are written by as many threads besides those of the simulation.
-  /// Only the first of `ranks` has the components; the others keep its schedule.
-  Outputs(const Model& model, Simulation& simulation, RunFolder& folder, double start_time,
-          double end_time, int threads, Ranks& ranks);
+  /// With more than one thread of the plan, frames are written by as many threads besides those of
+  /// the simulation. Only the first of `ranks` has the components; the others keep its schedule.
+  Outputs(const Plan& plan, Simulation& simulation, RunFolder& folder, Ranks& ranks);
   void archive(Archive& archive);
   /// Makes and begins every writer and probe, or continues them.
   void begin();
@@ -49,10 +46,12 @@ class Outputs {
     std::string name;       ///< of its folder in the run's; empty: the run's folder itself
     std::string directory;  ///< path of its files' folder
     Schedule schedule;
-    std::vector<FrameMark> shown;  ///< all frames so far; of a probe, the latest
-    FieldNames fields;             ///< of a writer, as named in begin()
-    bool is_writing = false;       ///< it may announce files
-    Table* table = nullptr;        ///< of a probe
+    std::vector<FrameMark> shown;          ///< all frames so far; of a probe, the latest
+    FieldNames fields;                     ///< of a writer, as named in begin()
+    bool needs_state = true;               ///< see OutputNeeds; known to all ranks
+    std::set<Simulation::Motion> motions;  ///< that it shows, if it does not need the state
+    bool is_writing = false;               ///< it may announce files
+    Table* table = nullptr;                ///< of a probe
     std::vector<double> row;
     bool is_probe() const { return stage->family() == Family::probes; }
   };
@@ -64,16 +63,18 @@ class Outputs {
   bool has_seen_this(const Output& output) const {
     return !output.shown.empty() && output.shown.back().step == simulation_.steps();
   }
+  void share_needs();
+  void bring_state(const std::vector<Output*>& shown);
   void show_to(const std::vector<Output*>& due);
   void show_here(const std::vector<Output*>& due);
   static void sample(Output& probe, const Snapshot& snapshot);
   static void write(Output& writer, const Snapshot& snapshot);
 
+  const Plan& plan_;
   const Model& model_;
   Simulation& simulation_;
   SnapshotSource source_;
   RunFolder& folder_;
-  int threads_;
   Ranks& ranks_;
   std::vector<std::string_view> fields_;  ///< of this run
   std::vector<CrackFace> cut_faces_;      ///< while outputs begin, if one asks for them

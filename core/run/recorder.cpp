@@ -14,8 +14,7 @@ Recorder::Recorder(const Plan& plan, Simulation& simulation, RunFolder& folder,
       guard_(*plan.model, simulation),
       cells_(*plan.model),
       history_(folder, *plan.model),
-      outputs_(*plan.model, simulation, folder, plan.start_time(), plan.end_time(), plan.threads,
-               ranks),
+      outputs_(plan, simulation, folder, ranks),
       planned_steps_(plan.steps()),
       first_step_(plan.first_step()) {
   if (plan.model->springs.breakable || plan.model->springs.softens) failures_.emplace(folder);

@@ -7,6 +7,10 @@
 #include <state/fragments.hpp>
 #include <state/particle_stress.hpp>
 
+#include <hyperlattice/fields.hpp>
+
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 
 namespace hyperlattice {
@@ -67,6 +71,7 @@ SnapshotSource::SnapshotSource(const Model& model, Simulation& simulation)
 
 void SnapshotSource::renew() {
   for (auto& [name, values] : fields_) values.current = false;
+  has_collected_only_ = false;
   forces_current_ = false;
   measured_.reset();
   cubes_ = {};
@@ -125,7 +130,31 @@ SnapshotSource::Compute SnapshotSource::function_of(std::string_view name) {
   return nullptr;
 }
 
+void SnapshotSource::collect(const std::set<Simulation::Motion>& motions) {
+  static constexpr std::pair<const char*, Simulation::Motion> names[] = {
+      {"displacement", Simulation::Motion::displacement},
+      {"velocity", Simulation::Motion::velocity},
+      {"height", Simulation::Motion::height}};
+  for (const auto& [name, motion] : names) {
+    if (!motions.contains(motion)) continue;
+    FieldValues& values = fields_[name];
+    simulation_.copy_to_first(motion, values.numbers);
+    values.components = motion == Simulation::Motion::height ? 1 : 3;
+    values.current = true;
+  }
+  has_collected_only_ = true;
+}
+
+void SnapshotSource::must_have_state(std::string_view what) const {
+  if (has_collected_only_)
+    throw PluginMistake(fmt::format(
+        "it asks for {}, which it did not name in begin(): a run on several ranks brings to the "
+        "first one what was named",
+        what));
+}
+
 void SnapshotSource::compute(std::string_view name, FieldValues& values) {
+  if (!is_constant_field(name)) must_have_state(name);
   values.components = components_of(*field_of(model_, name));
   if (const Compute function = function_of(name); function != nullptr)
     (this->*function)(values.numbers);
@@ -180,12 +209,14 @@ std::span<const double> SnapshotSource::fragments(double damage) {
     this->field("fragment", field);
     return field.values;
   }
+  must_have_state("fragments");
   if (masses_.empty()) mass(masses_);
   fragments_ = hyperlattice::fragments(measured_->springs(), masses_, damage);
   return fragments_;
 }
 
 std::span<const CrackFace> SnapshotSource::crack_faces(double damage) {
+  must_have_state("the faces of cracks");
   crack_faces_ = hyperlattice::crack_faces(model_, simulation_, damage);
   return crack_faces_;
 }
@@ -286,6 +317,7 @@ void SnapshotSource::acceleration(std::vector<double>& numbers) {
 Resultant SnapshotSource::resultant(ForcesId forces, Vec3 about) {
   if (forces.index >= simulation_.force_sums().size())
     throw PluginMistake("it asks for forces that it did not name in begin()");
+  must_have_state("forces");
   if (!forces_current_) simulation_.force_sums().measure();
   forces_current_ = true;
   return simulation_.force_sums().sum(forces, about);

@@ -9,6 +9,7 @@
 #include <exception>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 
 namespace hyperlattice {
@@ -37,6 +38,11 @@ class SnapshotSource {
   const Snapshot& latest() const { return snapshot_; }
   /// Puts a field of the present state, which is that of the latest take(), into `values`.
   void hand_over(std::string_view name, FieldValues& values);
+  /// Brings the fields of these motions to the first rank, where the snapshots until renew() have
+  /// no other fields that change: the rest of the state stays where it is. All ranks must call it.
+  void collect(const std::set<Simulation::Motion>& motions);
+  /// Throws PluginMistake if there is nothing but collected fields. `what`: is asked for.
+  void must_have_state(std::string_view what) const;
 
  private:
   using Compute = void (SnapshotSource::*)(std::vector<double>& numbers);
@@ -85,6 +91,7 @@ class SnapshotSource {
   Snapshot snapshot_;
   std::vector<double> positions_;
   std::map<std::string, FieldValues, std::less<>> fields_;
+  bool has_collected_only_ = false;  ///< other fields would need blocks of other ranks
   std::optional<Measured> measured_;
   bool forces_current_ = false;
   /// Springs of each particle at the start; filled when damage is first asked for.

@@ -1,5 +1,6 @@
 #include <base/errors.hpp>
 #include <plan/precision.hpp>
+#include <process/peak_memory.hpp>
 #include <run/failing_motion.hpp>
 #include <run/final_state.hpp>
 #include <run/interrupt.hpp>
@@ -25,8 +26,12 @@ StageSequence::StageSequence(const Plan& plan, const RunOptions& options, RunFol
       recorder_(plan, simulation, folder, stopwatch_, ranks),
       checkpoints_(
           plan, folder, stopwatch_, ranks, options.checkpoint_every,
-          [this] { return recorder_.is_sound(); }, [this] { recorder_.drain(); },
-          [&simulation] { simulation.gather_in_first(); },
+          [this] { return recorder_.is_sound(); },
+          [this] {
+            recorder_.drain();
+            simulation_.prepare_to_save();
+          },
+          [&simulation] { simulation.pass_to_first(); },
           [this](Archive& state) { archive(state); }) {}
 
 void StageSequence::archive(Archive& archive) {
@@ -144,6 +149,10 @@ void StageSequence::note(Outcome& outcome) {
   outcome.injected_by_load = simulation_.injected_by_load();
   outcome.state_hash = simulation_.hash();
   recorder_.note(outcome);
+  outcome.peak_bytes.assign(static_cast<std::size_t>(ranks_.count()), 0);
+  outcome.peak_bytes[static_cast<std::size_t>(ranks_.rank())] = peak_memory_bytes();
+  ranks_.meet(Ranks::Meeting::stage);
+  ranks_.sum(outcome.peak_bytes);
   if (plan_.model->springs.choice.precision == Precision::doubles) return;
   if (std::string warning = precision_warning(*plan_.model, simulation_.farthest());
       !warning.empty())

@@ -1,19 +1,12 @@
+#include <process/peak_memory.hpp>
 #include <run/summary.hpp>
 
 #include <spdlog/fmt/fmt.h>
 #include <nlohmann/json.hpp>
 
-#include <sys/resource.h>
-
 namespace hyperlattice {
 
 namespace {
-
-std::uint64_t peak_memory_bytes() {
-  struct rusage usage {};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
-}
 
 nlohmann::json energy_json(const Plan& plan, const Outcome& outcome) {
   const EnergyBalance& b = outcome.last.balance;
@@ -58,6 +51,7 @@ nlohmann::json summary_json(const Plan& plan, const Outcome& outcome) {
                              {"output", outcome.output_seconds}};
   summary["nanoseconds_per_particle_step"] = work > 0 ? 1e9 * outcome.solve_seconds / work : 0.0;
   summary["peak_memory_bytes"] = peak_memory_bytes();
+  if (outcome.peak_bytes.size() > 1) summary["peak_memory_bytes_of_ranks"] = outcome.peak_bytes;
   summary["energy"] = energy_json(plan, outcome);
   summary["broken_springs"] = {{"open", outcome.last.broken_open},
                                {"closed", outcome.last.broken_closed}};

@@ -24,6 +24,7 @@ struct Outcome {
   double time = 0;                       ///< reached time, s
   std::vector<std::string> warnings;     ///< in addition to the model's
   std::uint64_t state_hash = 0;
+  std::vector<std::int64_t> peak_bytes;  ///< largest memory of each rank so far
 
   /// Sets how the run ended. The first status with an exit code other than 0 stays.
   void end(const char* new_status, int code, std::string why) {

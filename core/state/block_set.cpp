@@ -1,69 +1,11 @@
 // The blocks of a state: arrays, living springs, boundary particles. Each block is first touched by
 // the thread that will work on it.
+#include <process/small_pages.hpp>
 #include <state/block_set.hpp>
 
 #include <algorithm>
 
 namespace hyperlattice {
-
-namespace {
-
-template <class T>
-void visit(Archive& archive, const AlignedArray<T>& array) {
-  archive(std::span(array.get(), array.size()));
-}
-
-/// Saves the memory in the order of its keys, so that equal memories have equal bytes.
-void visit(Archive& archive, FailureMemory& memory) {
-  struct Kept {
-    FailureKey key;
-    FailureMemory::mapped_type numbers;
-  };
-  std::vector<Kept> all;
-  if (!archive.restores())
-    for (const auto& [key, numbers] : memory) all.push_back({key, numbers});
-  archive(all);
-  if (!archive.restores()) return;
-  memory.clear();
-  for (const Kept& kept : all) memory.emplace_hint(memory.end(), kept.key, kept.numbers);
-}
-
-/// What a step finds and the next evaluation does not.
-void visit_found(Archive& archive, Block& block) {
-  archive(block.broken);
-  archive(block.noted);
-}
-
-void visit_results(Archive& archive, Block& block) {
-  archive(block.damped_work);
-  archive(block.fracture_work);
-  archive(block.other_sums);
-  archive(block.sums);
-  archive(block.boundary_particles);
-  archive(block.held_force);
-  archive(block.contributions);
-}
-
-void visit_body(Archive& archive, Block& block, int components) {
-  for (int c = 0; c < components; ++c) {
-    archive(block.displacement[c].bytes());
-    archive(block.velocity[c].bytes());
-  }
-  visit(archive, block.alive);
-  visit(archive, block.memory);
-  visit(archive, block.failure_memory);
-  visit(archive, block.listed.neighbour);
-  archive(block.damped_work);
-  archive(block.fracture_work);
-}
-
-void visit(Archive& archive, Block& block, int components) {
-  visit_body(archive, block, components);
-  archive(block.boundary_particles);
-  archive(block.contributions);
-}
-
-}  // namespace
 
 BlockSet::BlockSet(const Model& model, int threads, Ranks& ranks, int blocks)
     : model_(model),
@@ -80,14 +22,24 @@ BlockSet::BlockSet(const Model& model, int threads, Ranks& ranks, int blocks)
   if (ranks.count() > 1) halo_.emplace(model, *layout_, owners_, ranks.rank());
   team_.for_own(blocks_.size(), [&](std::size_t b) { allocate(blocks_[b], b); });
   for (Block& block : blocks_) add_supports(block);
-  for (const auto& [particle, velocity] : model.loads.start_velocities) {
-    const auto [block, place] = at(particle);
-    for (int c = 0; c < 3; ++c) block->velocity[c].set(place, velocity[c]);
-  }
+  set_start_velocities();
   if (ranks.count() > 1) find_first_of_ranks();
   if (is_whole()) return;
   ranks_.meet(Ranks::Meeting::state);
   halo_->exchange(blocks_, ranks_);
+}
+
+void BlockSet::set_start_velocities() const {
+  const std::vector<StartVelocity>& all = model_.loads.start_velocities;
+  auto next = all.begin();
+  for_runs([&](const Block& block, std::uint64_t place, Particle first, std::uint64_t count) {
+    const Particle end = first + count;
+    while (next != all.end() && next->first + next->count <= first) ++next;
+    if (!is_mine(block) && !keeps_whole_) return;
+    for (auto of = next; of != all.end() && of->first < end; ++of)
+      for (Particle p = std::max(first, of->first); p < std::min(end, of->first + of->count); ++p)
+        for (int c = 0; c < 3; ++c) block.velocity[c].set(place + (p - first), of->velocity[c]);
+  });
 }
 
 /// Blocks, and so ranks, follow each other as their particles do.
@@ -104,7 +56,6 @@ void BlockSet::find_first_of_ranks() {
 /// Allocates a block. Of another rank's block little is touched before it is gathered, so that it
 /// takes little memory.
 void BlockSet::allocate(Block& block, std::size_t number) {
-  const Precision precision = model_.springs.choice.precision;
   block.layout = &layout_->blocks[number];
   block.number = number;
   block.rows = block.layout->rows;
@@ -116,14 +67,27 @@ void BlockSet::allocate(Block& block, std::size_t number) {
     block.other_sums.resize(block.rows.size());
   block.sums.resize(block.rows.size());
   const bool at_once = is_mine(block) || keeps_whole_;
+  allocate_motion(block, at_once);
+  if (at_once) fill(block);
+}
+
+/// Allocates displacements and velocities; if they are not needed at once, also the room of living
+/// springs that the halo writes into.
+void BlockSet::allocate_motion(Block& block, bool at_once) const {
   const auto components = static_cast<std::size_t>(model_.degrees_of_freedom);
   for (Numbers* const motion : {block.displacement, block.velocity})
-    block.component_stride = Numbers::allocate_together(precision, block.layout->sites,
-                                                        std::span(motion, components), at_once);
-  if (at_once)
-    fill(block);
-  else
-    block.alive = AlignedArray<std::uint16_t>(block.layout->sites, FilledLater());
+    block.component_stride =
+        Numbers::allocate_together(model_.springs.choice.precision, block.layout->sites,
+                                   std::span(motion, components), at_once);
+  if (at_once) return;
+  block.alive = AlignedArray<std::uint16_t>(block.layout->sites, FilledLater());
+  // The halo fills a few planes.
+  for (Numbers* const motion : {block.displacement, block.velocity}) {
+    std::byte* const first = motion[0].bytes().data();
+    const std::span<std::byte> last = motion[components - 1].bytes();
+    use_small_pages({first, last.data() + last.size()});
+  }
+  use_small_pages(std::as_writable_bytes(std::span(block.alive.get(), block.alive.size())));
 }
 
 /// Allocates and fills what a block has besides its motion.
@@ -164,6 +128,11 @@ void BlockSet::add_supports(Block& block) const {
   std::stable_sort(found.begin(), found.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
 
+  std::size_t particles = 0;
+  for (std::size_t n = 0; n < found.size(); ++n)
+    particles += n == 0 || found[n].first != found[n - 1].first ? 1 : 0;
+  block.boundary_particles.reserve(particles);
+  block.contributions.reserve(found.size());
   Particle last = Body::no_particle;
   for (auto& [particle, part] : found) {
     if (particle != last) {
@@ -215,110 +184,6 @@ void BlockSet::note_gone(Block& block, const AlarmRow& springs) const {
     block.broken.push_back(
         {layout_->spring(block, springs.row, springs.neighbour, springs.sites[n]),
          springs.elongation[n], springs.row, springs.neighbour, springs.sites[n], true});
-}
-
-template <class Parts>
-void BlockSet::spread(const Parts& parts, bool to_all) {
-  for (Block& block : blocks_) {
-    const int owner = owners_[block.number], here = ranks_.rank();
-    if (!to_all && owner == 0) continue;
-    if (!to_all && here != 0 && here != owner) continue;
-    Archive archive(
-        [&](void* data, std::size_t size) {
-          const std::span bytes(static_cast<std::byte*>(data), size);
-          if (to_all) return ranks_.spread(owner, bytes);
-          const OutgoingBytes out{0, bytes};
-          const IncomingBytes in{owner, bytes};
-          if (here == owner)
-            ranks_.exchange({&out, 1}, {});
-          else
-            ranks_.exchange({}, {&in, 1});
-        },
-        owner != here);
-    parts(archive, block);
-  }
-}
-
-void BlockSet::gather(Whole where) {
-  if (ranks_.is_alone() || whole_ >= where) return;
-  ranks_.meet(Ranks::Meeting::state);
-  spread([&](Archive& archive, Block& block) { visit_all(archive, block); },
-         where == Whole::everywhere);
-  whole_ = where;
-}
-
-void BlockSet::gather() { gather(Whole::everywhere); }
-void BlockSet::gather_in_first() { gather(Whole::in_first); }
-
-void BlockSet::collect(Particle first, std::uint64_t count, std::size_t components,
-                       std::span<double> values) {
-  if (ranks_.is_alone() || whole_ != Whole::nowhere) return;
-  ranks_.meet(Ranks::Meeting::state);
-  for (int rank = 1; rank < ranks_.count(); ++rank) {
-    const auto r = static_cast<std::size_t>(rank);
-    const Particle from = std::max(first, first_of_rank_[r]),
-                   to = std::min(first + count, first_of_rank_[r + 1]);
-    if (from >= to) continue;
-    const auto bytes = std::as_writable_bytes(
-        values.subspan((from - first) * components, (to - from) * components));
-    const OutgoingBytes out{0, bytes};
-    const IncomingBytes in{rank, bytes};
-    if (ranks_.rank() == rank) ranks_.exchange({&out, 1}, {});
-    if (ranks_.is_first()) ranks_.exchange({}, {&in, 1});
-  }
-}
-
-void BlockSet::gather_results() {
-  if (ranks_.is_alone()) return;
-  ranks_.meet(Ranks::Meeting::results);
-  spread(visit_results);
-}
-
-void BlockSet::gather_broken() { spread(visit_found); }
-
-std::int64_t BlockSet::exchange_ranks() {
-  std::int64_t found = 0;
-  if (ranks_.is_alone()) return found;
-  for (std::size_t b = first_mine_; b < last_mine_; ++b)
-    found += static_cast<std::int64_t>(blocks_[b].broken.size() + blocks_[b].noted.size());
-  found = ranks_.meet(Ranks::Meeting::step, found);
-  whole_ = Whole::nowhere;
-  if (!keeps_whole_) {
-    halo_->exchange(blocks_, ranks_);
-    if (found > 0 && !model_.cohesive.empty())
-      spread([](Archive& archive, Block& block) { archive(block.noted); });
-    return found;
-  }
-  spread([&](Archive& archive, Block& block) {
-    visit_all(archive, block);
-    visit_found(archive, block);
-  });
-  whole_ = Whole::everywhere;
-  return found;
-}
-
-void BlockSet::visit_all(Archive& archive, Block& block) const {
-  if (archive.restores()) fill(block);
-  visit(archive, block, model_.degrees_of_freedom);
-}
-
-void BlockSet::archive(Archive& archive) {
-  if (archive.restores()) whole_ = Whole::everywhere;
-  archive.same(blocks_.size(), "the number of blocks");
-  for (Block& block : blocks_) visit_all(archive, block);
-}
-
-void BlockSet::archive_body(Archive& archive) {
-  if (archive.restores()) whole_ = Whole::everywhere;
-  archive.same(blocks_.size(), "the number of blocks");
-  for (Block& block : blocks_) {
-    if (archive.restores()) fill(block);
-    archive.same(block.layout->sites, "the size of its blocks");
-    archive.same(block.rows.size(), "the rows of its blocks");
-    archive.same(block.memory.size(), "the memory of its laws");
-    archive.same(block.fracture_work.size(), "the laws that soften");
-    visit_body(archive, block, model_.degrees_of_freedom);
-  }
 }
 
 }  // namespace hyperlattice

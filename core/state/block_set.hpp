@@ -115,10 +115,13 @@ class BlockSet {
   void note_gone(Block& block, const AlarmRow& springs) const;
 
   /// Saves or restores the blocks as they are, so that a run continues with the same number of
-  /// blocks.
+  /// blocks. All ranks restore. The first rank saves while the others call pass_to_first(); it gets
+  /// their blocks in pieces, which go into the archive at once.
   void archive(Archive& archive);
   /// Saves or restores the blocks without what loads do in them.
   void archive_body(Archive& archive);
+  /// Passes the blocks of this rank to the first one, which saves them.
+  void pass_to_first();
 
  private:
   /// Where all blocks are up to date.
@@ -128,9 +131,18 @@ class BlockSet {
   void spread(const Parts& parts, bool to_all = true);
   void gather(Whole where);
   void visit_all(Archive& archive, Block& block) const;
+  /// Returns whether this rank has a block that another one computes only to pass it on.
+  bool is_passed(const Block& block) const {
+    return !ranks_.is_alone() && whole_ == Whole::nowhere && owners_[block.number] != 0;
+  }
+  void pass(Block& block);
+  void take(Archive& archive, const Block& block);
+  void restore(Archive& archive);
   void allocate(Block& block, std::size_t number);
+  void allocate_motion(Block& block, bool at_once) const;
   void fill(Block& block) const;
   void add_supports(Block& block) const;
+  void set_start_velocities() const;
   void find_first_of_ranks();
 
   const Model& model_;

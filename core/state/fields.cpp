@@ -61,6 +61,32 @@ bool Simulation::displacements_in_first(std::vector<double>& xyz, Particle first
   return state_->blocks.ranks().is_first();
 }
 
+void Simulation::copy_to_first(Motion what, std::vector<double>& values) const {
+  values.clear();
+  const Quantity quantity =
+      what == Motion::height ? Quantity{false, 3, 1} : Quantity{what == Motion::velocity, 0, 3};
+  BlockSet& blocks = state_->blocks;
+  if (blocks.model().degrees_of_freedom < quantity.first + quantity.components) return;
+  if (blocks.is_whole()) {
+    if (blocks.ranks().is_first()) copy(quantity, values);
+    return;
+  }
+  // Few pieces, because each looks for its particles in all rows.
+  constexpr std::uint64_t pieces = 64, least = 1 << 16;
+  const std::uint64_t all = blocks.model().body.particles, piece = std::max(least, all / pieces);
+  const auto components = static_cast<std::size_t>(quantity.components);
+  const bool keeps = blocks.ranks().is_first();
+  values.resize((keeps ? all : std::min(all, piece)) * components);
+  for (Particle first = 0; first < all; first += piece) {
+    const std::uint64_t count = std::min(piece, all - first);
+    const std::span part =
+        std::span(values).subspan((keeps ? first : 0) * components, count * components);
+    copy(quantity, first, count, part.data());
+    blocks.collect(first, count, components, part);
+  }
+  if (!keeps) values = {};
+}
+
 void Simulation::velocities(std::vector<double>& xyz) const { copy({true, 0, 3}, xyz); }
 void Simulation::heights(std::vector<double>& values) const {
   values.clear();

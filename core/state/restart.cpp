@@ -3,8 +3,11 @@
 
 namespace hyperlattice {
 
+void Simulation::prepare_to_save() const { state_->damage.gather(); }
+void Simulation::pass_to_first() { state_->blocks.pass_to_first(); }
+
 void Simulation::archive(Archive& archive) {
-  if (!archive.restores()) gather_in_first();
+  if (!archive.restores()) prepare_to_save();
   state_->blocks.archive(archive);
   state_->added.archive(archive);
   state_->sweeps.archive(archive);

@@ -127,6 +127,10 @@ class Simulation {
   /// Copies the displacements of `count` particles from `first` on to the first rank, without the
   /// rest of the state. Returns whether this is that rank.
   bool displacements_in_first(std::vector<double>& xyz, Particle first, std::uint64_t count) const;
+  enum class Motion : std::uint8_t { displacement, velocity, height };
+  /// Copies such numbers of all particles to the first rank, in pieces: no rank gets the rest of
+  /// the state. `values` is as of displacements(), velocities() or heights(); empty in other ranks.
+  void copy_to_first(Motion what, std::vector<double>& values) const;
   void velocities(std::vector<double>& xyz) const;  ///< v(n-1/2), m/s
   void heights(std::vector<double>& values) const;
   /// Displacement or velocity of all particles in their order, where it is one array in memory.
@@ -189,13 +193,18 @@ class Simulation {
   double bytes() const;  ///< of the state without scratch arrays
   double scratch_bytes() const;
   /// Saves or restores the whole state. A simulation of the same model and number of threads
-  /// continues with the same bits.
+  /// continues with the same bits. All ranks restore, after prepare_to_save() the first one saves.
   void archive(Archive& archive);
   /// Saves or restores the state of the body without its loads, as the start of a run under other
   /// loads: their work and memory begin anew, and so does the energy balance. Time, number of steps
   /// and dissipated energies go on. A simulation of the same body, laws and number of blocks reads
   /// it. Throws std::runtime_error if the body is another one.
   void archive_body(Archive& archive);
+  /// Prepares all ranks for a state that is saved.
+  void prepare_to_save() const;
+  /// Passes the state of this rank to the first one, in pieces, while that rank saves. All other
+  /// ranks must call it.
+  void pass_to_first();
 
  private:
   struct State;

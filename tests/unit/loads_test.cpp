@@ -138,13 +138,28 @@ TEST(Loads, PrescribedMotionKnowsItsAxes) {
 TEST(Loads, StartVelocityTranslatesAndSpins) {
   const BuiltScene built = box_with(
       R"({ "type": "loads.start_velocity", "linear": [1, 2, 3], "angular": [0, 0, 2] }, { "type": "loads.start_velocity", "on": "x_min", "linear": [10, 0, 0] })");
-  ASSERT_EQ(built->loads.start_velocities.size(), built->body.particles);
-  for (const auto& [particle, velocity] : built->loads.start_velocities) {
-    const Vec3 arm = built->body.position(particle) - Vec3{1.5, 2, 2.5};
-    expect_near(velocity,
-                {1 - 2 * arm.y + (built->body.site(particle).i == 0 ? 10 : 0), 2 + 2 * arm.x, 3},
-                1e-12);
+  Particle next = 0;
+  for (const StartVelocity& one : built->loads.start_velocities) {
+    ASSERT_EQ(one.first, next);
+    for (; next < one.first + one.count; ++next) {
+      const Vec3 arm = built->body.position(next) - Vec3{1.5, 2, 2.5};
+      expect_near(one.velocity,
+                  {1 - 2 * arm.y + (built->body.site(next).i == 0 ? 10 : 0), 2 + 2 * arm.x, 3},
+                  1e-12);
+    }
   }
+  EXPECT_EQ(next, built->body.particles);
+}
+
+TEST(Loads, ParticlesThatStartAlikeTakeNoMemoryEach) {
+  const BuiltScene alike = box_with(R"({ "type": "loads.start_velocity", "linear": [0, 0, -3] },
+    { "type": "loads.start_velocity", "on": "z_max", "linear": [1, 0, 0] })");
+  const std::vector<StartVelocity>& all = alike->loads.start_velocities;
+  ASSERT_EQ(all.size(), 2U);  // the layers below the last one, and the last one
+  EXPECT_EQ(all[0].count + all[1].count, alike->body.particles);
+  EXPECT_EQ(all[1].first, all[0].count);
+  expect_near(all[0].velocity, {0, 0, -3}, 0);
+  expect_near(all[1].velocity, {1, 0, -3}, 0);
 }
 
 TEST(Loads, TwoPrescriptionsOfOneAxisAreAFaultThatNamesBoth) {

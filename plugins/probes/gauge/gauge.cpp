@@ -37,6 +37,7 @@ class GaugeProbe {
   }
 
   void begin(const OutputContext& context, const Snapshot& first, const ColumnSink& columns) {
+    require_field(context, first, "displacement");
     const std::span<const Particle> from = context.particles(options_.from),
                                     to = context.particles(options_.to);
     if (from.empty() || to.empty())
