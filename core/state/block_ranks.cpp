@@ -171,6 +171,7 @@ void BlockSet::restore(Archive& archive) {
     block.mixture = {};
     block.cell_moduli = {};
     block.memory = {};
+    block.listed = {};
     block.scratch = {};
     block.failure_memory.clear();
   }

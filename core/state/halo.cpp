@@ -1,4 +1,5 @@
 #include <model/array_criterion.hpp>
+#include <model/nodal_volumes.hpp>
 #include <state/halo.hpp>
 
 #include <algorithm>
@@ -14,7 +15,7 @@ std::vector<int> owners_of(std::size_t blocks, int ranks) {
 }
 
 std::string needs_whole(const Model& model) {
-  if (model.body.is_listed()) return "the lattice is a list of springs";
+  if (model.nodal_volumes) return "pressures follow from the volumes around all particles";
   for (const Material& material : model.materials)
     if (has_array_criterion(material))
       return "a failure criterion decides about all springs at once";
@@ -22,11 +23,11 @@ std::string needs_whole(const Model& model) {
 }
 
 Halo::Halo(const Model& model, const Layout& layout, const std::vector<int>& owners, int rank)
-    : components_(model.degrees_of_freedom),
-      has_springs_(model.springs.breakable || model.springs.softens),
-      number_(bytes_of(model.springs.choice.precision)) {
+    : components_(model.degrees_of_freedom), number_(bytes_of(model.springs.choice.precision)) {
+  const bool may_lose = model.springs.breakable || model.springs.softens;
   // The energy of a broken spring needs the velocities of both its ends.
-  has_velocities_ = model.springs.asks_rate || has_springs_;
+  has_velocities_ = model.springs.asks_rate || may_lose;
+  has_springs_ = may_lose && !model.body.is_listed();  // both ends of a list know their springs
   for (std::size_t block = 0; block < owners.size(); ++block)
     for (const Layout::Borrowed& range : layout.borrowed(block)) {
       const int from = owners[range.block], to = owners[block];

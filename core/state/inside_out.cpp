@@ -124,8 +124,8 @@ bool CellWatch::look(const Simulation& simulation) {
   seen_.has_looked = 1;
   if (body_.is_listed()) {
     first_ = 0;
-    simulation.displacements(moved_);
-    look_at_list();
+    simulation.copy_to_first(Simulation::Motion::displacement, moved_);
+    if (!moved_.empty()) look_at_list();  // in the first rank
   } else {
     look_at_cells(simulation);
   }

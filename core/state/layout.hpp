@@ -131,8 +131,8 @@ class Layout {
     std::uint64_t begin = 0, end = 0;
     auto operator<=>(const Borrowed&) const = default;
   };
-  /// Returns the ranges of other blocks that exchange() copies into a block. Empty for a listed
-  /// body, which may read particles of any block.
+  /// Returns the ranges of other blocks that exchange() copies into a block, or that springs of the
+  /// block lead to.
   virtual std::vector<Borrowed> borrowed(std::size_t block) const = 0;
   /// Sets the members of a kernel's request that describe the arrangement.
   virtual void describe(const Block& block, KernelRequest& request) const = 0;

@@ -33,7 +33,7 @@ class ListedLayout final : public Layout {
   std::uint64_t alive_bits(const Block& block, std::uint64_t index) const override;
   void fill(Block& block) const override;
   void exchange(const std::vector<Block>& all, Block& block) const override;
-  std::vector<Borrowed> borrowed(std::size_t) const override { return {}; }
+  std::vector<Borrowed> borrowed(std::size_t block) const override;
   void describe(const Block& block, KernelRequest& request) const override;
   double state_bytes() const override;
   std::size_t scratch_numbers() const override;
