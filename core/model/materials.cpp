@@ -140,17 +140,23 @@ void assign(Model& model, RegionIndex& regions, Faults& faults) {
   std::vector<std::uint64_t> count(no_material + std::size_t{1});
   for (std::size_t n = 0; n < model.materials.size(); ++n) {
     const Stage& stage = *model.materials[n].stage;
-    const auto take = [&](std::span<const Particle> members) {
-      if (members.empty())
-        faults.add(stage.pointer + "/region", "",
-                   of_cells ? regions.expected_cells(stage.region)
-                            : regions.expected_particles(stage.region));
-      for (const Particle taken : members) material_of[taken] = static_cast<std::uint8_t>(n);
+    if (has_all(model.materials[n])) {
+      std::fill(material_of.begin(), material_of.end(), static_cast<std::uint8_t>(n));
+      continue;
+    }
+    bool any = false;
+    const auto take = [&](Particle member) {
+      any = true;
+      material_of[member] = static_cast<std::uint8_t>(n);
     };
     if (of_cells)
-      take(regions.cells(stage.region));
+      for (const Particle cell : regions.cells(stage.region)) take(cell);
     else
-      take(regions.particles(stage.region));
+      regions.for_particles(stage.region, take);
+    if (!any)
+      faults.add(stage.pointer + "/region", "",
+                 of_cells ? regions.expected_cells(stage.region)
+                          : regions.expected_particles(stage.region));
   }
   if (!faults.empty()) return;
   for (const std::uint8_t material : material_of) ++count[material];
@@ -171,7 +177,7 @@ void assign(Model& model, RegionIndex& regions, Faults& faults) {
   if (of_cells)
     model.kinds.mixtures = Mixtures(model.body, material_of, model.materials.size());
   else
-    model.kinds.material_of = std::move(material_of);
+    model.kinds.material_of = PagedNumbers<std::uint8_t>(material_of);
 }
 
 }  // namespace

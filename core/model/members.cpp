@@ -146,16 +146,21 @@ std::vector<Particle> cells_in(const Body& body, const Surfaces& surfaces, const
   return found;
 }
 
-std::vector<Particle> particles_in(const Body& body, const Surfaces& surfaces,
-                                   const Region& region) {
+void for_particles_in(const Body& body, const Surfaces& surfaces, const Region& region,
+                      const std::function<void(Particle)>& visit) {
   const Sites sites{body, surfaces};
   const RegionMembership<Sites> membership(sites);
-  std::vector<Particle> found;
-  if (region.kind == Region::Kind::all) found.reserve(body.particles);  // many: no copies
   for (const Run& run : body.runs)
     for (std::int32_t i = run.begin; i < run.end; ++i)
       if (membership.holds(region, {i, run.j, run.k}))
-        found.push_back(run.first + static_cast<Particle>(i - run.begin));
+        visit(run.first + static_cast<Particle>(i - run.begin));
+}
+
+std::vector<Particle> particles_in(const Body& body, const Surfaces& surfaces,
+                                   const Region& region) {
+  std::vector<Particle> found;
+  if (region.kind == Region::Kind::all) found.reserve(body.particles);  // many: no copies
+  for_particles_in(body, surfaces, region, [&](Particle particle) { found.push_back(particle); });
   return found;
 }
 

@@ -16,7 +16,6 @@ Mixtures::Mixtures(const Body& body, std::span<const std::uint8_t> material_of,
     whole.shares.fill(1);
   }
   std::map<Around, std::uint32_t> known;
-  of_particle_.reserve(body.particles);
   for (const Run& run : body.runs)
     for (std::int32_t i = run.begin; i < run.end; ++i) {
       Around here;
@@ -55,8 +54,7 @@ std::uint8_t Mixtures::material_of_spring(std::uint32_t mixture, const Neighbour
 }
 
 double Mixtures::bytes() const {
-  return static_cast<double>(of_particle_.size() * sizeof(std::uint32_t) +
-                             around_.size() * sizeof(Around));
+  return of_particle_.bytes() + static_cast<double>(around_.size() * sizeof(Around));
 }
 
 namespace {

@@ -4,6 +4,7 @@
 // the constants of its springs.
 #pragma once
 
+#include <base/paged_numbers.hpp>
 #include <model/body.hpp>
 
 #include <array>
@@ -77,7 +78,7 @@ class Mixtures {
            static_cast<std::size_t>(di + 1);
   }
 
-  std::vector<std::uint32_t> of_particle_;
+  PagedNumbers<std::uint32_t> of_particle_;
   std::vector<Around> around_;
 };
 

@@ -2,6 +2,7 @@
 // sets the mass and the alpha spring of the particle.
 #pragma once
 
+#include <base/paged_numbers.hpp>
 #include <model/mixtures.hpp>
 
 #include <cstdint>
@@ -12,7 +13,7 @@ namespace hyperlattice {
 /// The kinds of all particles.
 struct ParticleKinds {
   /// Material of each particle; empty if there is one material, or if cells have the materials.
-  std::vector<std::uint8_t> material_of;
+  PagedNumbers<std::uint8_t> material_of;
   Mixtures mixtures;  ///< for a body of cells of several materials
   /// Mass, kg, and alpha stiffness, N/m (0 if clamped), of a whole particle: first of each
   /// material, then of each mixture; index: of().

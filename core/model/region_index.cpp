@@ -78,6 +78,12 @@ std::span<const Particle> RegionIndex::particles(RegionId region) {
   return entry->second;
 }
 
+void RegionIndex::for_particles(RegionId region, const std::function<void(Particle)>& visit) {
+  if (body_.is_cubic() && !particles_.contains(region.index))
+    return for_particles_in(body_, surfaces(), existing(region), visit);
+  for (const Particle particle : particles(region)) visit(particle);
+}
+
 std::vector<Particle> RegionIndex::cells(RegionId region) {
   return cells_in(body_, surfaces(), regions_[region]);
 }

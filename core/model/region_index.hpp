@@ -4,6 +4,7 @@
 
 #include <model/skin.hpp>
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -15,6 +16,8 @@ class RegionIndex {
   RegionIndex(const Body& body, const Regions& regions) : body_(body), regions_(regions) {}
 
   std::span<const Particle> particles(RegionId region);  ///< ascending
+  /// Calls visit(particle) for the same particles; on a cubic grid without a list of them.
+  void for_particles(RegionId region, const std::function<void(Particle)>& visit);
   /// Returns the indices of the region's cells in the body, ascending. A solid holds a cell if the
   /// centre of the cell is inside.
   std::vector<Particle> cells(RegionId region);

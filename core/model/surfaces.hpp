@@ -10,6 +10,7 @@
 #include <hyperlattice/load.hpp>
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -55,6 +56,9 @@ class Surfaces {
 /// particles; where the surface cuts the cells there, all corners of these cells.
 std::vector<Particle> particles_in(const Body& body, const Surfaces& surfaces,
                                    const Region& region);
+/// Calls visit(particle) for the same particles.
+void for_particles_in(const Body& body, const Surfaces& surfaces, const Region& region,
+                      const std::function<void(Particle)>& visit);
 
 /// Returns the cells of a region in a body of cells, as indices in its runs, ascending. A solid
 /// holds a cell if the centre of the cell is inside; a partial cell, if at least half of the cell's

@@ -123,14 +123,14 @@ double records_of(const PlannedStage& stage) {
 double model_bytes(const Model& model) {
   const std::size_t runs = model.body.runs.size() + model.body.cells.runs().size();
   auto bytes =
-      static_cast<double>(
-          (model.body.listed.springs.size() + model.body.listed.cut.size()) * sizeof(ListedSpring) +
-          model.body.cut_sites.size() * sizeof(CutSite) +
-          model.body.listed.positions.size() * sizeof(Vec3) + runs * sizeof(Run) +
-          model.body.row_runs.size() * sizeof(std::size_t) +
-          model.body.cells.partial().size() * sizeof(PartialCell) + model.kinds.material_of.size() +
-          model.loads.start_velocities.size() * sizeof(StartVelocity)) +
-      model.kinds.mixtures.bytes();
+      static_cast<double>((model.body.listed.springs.size() + model.body.listed.cut.size()) *
+                              sizeof(ListedSpring) +
+                          model.body.cut_sites.size() * sizeof(CutSite) +
+                          model.body.listed.positions.size() * sizeof(Vec3) + runs * sizeof(Run) +
+                          model.body.row_runs.size() * sizeof(std::size_t) +
+                          model.body.cells.partial().size() * sizeof(PartialCell) +
+                          model.loads.start_velocities.size() * sizeof(StartVelocity)) +
+      model.kinds.material_of.bytes() + model.kinds.mixtures.bytes();
   if (model.nodal_volumes)
     bytes += model.nodal_volumes->bytes() + NodalPressures::bytes(*model.nodal_volumes);
   if (!model.cohesive.empty())

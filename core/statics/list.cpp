@@ -22,7 +22,7 @@ void Statics::make_list() {
   for (Particle p = 0; p < body.particles; ++p)
     particle_weight_.push_back(static_cast<float>(body.share(p)));
   if (!model_.kinds.material_of.empty())
-    kind_.assign(model_.kinds.material_of.begin(), model_.kinds.material_of.end());
+    for (Particle p = 0; p < body.particles; ++p) kind_.push_back(model_.kinds.material_of[p]);
   for (std::uint32_t n = 0; n < body.listed.springs.size(); ++n) {
     const ListedSpring& spring = body.listed.springs[n];
     const SpringProperties properties = model_.spring_properties(spring.a, spring.b, n);
