@@ -290,9 +290,8 @@ void ListedLayout::describe(const Block& block, KernelRequest& request) const {
 double ListedLayout::state_bytes() const {
   const double number = model_.springs.choice.precision == Precision::floats ? sizeof(float)
                                                                              : sizeof(double),
-               record =
-                   (record_numbers + (model_.springs.asks_rate ? model_.degrees_of_freedom : 0)) *
-                   number;
+               velocities = model_.springs.asks_rate ? model_.degrees_of_freedom : 0,
+               record = (static_cast<double>(record_numbers) + velocities) * number;
   const double state = 2.0 * model_.degrees_of_freedom * number + record +
                        (model_.body.listed.shares.empty() ? 0.0 : double{sizeof(double)}) +
                        double{sizeof(std::uint16_t)} + (model_.kinds.material_of.empty() ? 0 : 1);

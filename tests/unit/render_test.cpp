@@ -142,7 +142,7 @@ TEST(Render, NeighboursPartOnlyAtBrokenSprings) {
   const auto pixels_of = [](bool broken, json options = json::object()) {
     Block block({4, 2, 2});
     block.move([](Vec3 x) { return x + (x.x > 2e-3 ? Vec3{1e-3, 0, 0} : Vec3{}); });
-    for (const Particle row : {0, 4, 8, 12})
+    for (const Particle row : {0U, 4U, 8U, 12U})
       if (broken) block.break_spring(row + 1, row + 2);
     for (Particle n = 0; n < block.particles; ++n) block.fragment[n] = broken && n % 4 > 1 ? 1 : 0;
     options.update({{"view", {0.3, -1, 0}}});
