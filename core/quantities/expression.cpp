@@ -82,7 +82,7 @@ class Translation {
       Instruction last = code_[result.place];
       code_.push_back(last);
     }
-    return {Compiled(std::move(code_)), result.powers, result.is_condition, ""};
+    return {Compiled(code_), result.powers, result.is_condition, ""};
   }
 
  private:

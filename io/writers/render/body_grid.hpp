@@ -3,6 +3,7 @@
 
 #include <hyperlattice/output.hpp>
 
+#include <utility>
 #include <vector>
 
 namespace hyperlattice::render {
@@ -43,8 +44,7 @@ class BodyGrid {
   /// Returns the number of a corner among all corners of the grid.
   std::uint64_t corner_index(Place corner) const { return index(corner, 1); }
   Place corner_place(std::uint64_t index) const {
-    const auto nx = static_cast<std::uint64_t>(count_[0] + 1),
-               ny = static_cast<std::uint64_t>(count_[1] + 1);
+    const auto [nx, ny] = row_sizes(1);
     return {static_cast<std::int32_t>(index % nx), static_cast<std::int32_t>(index / nx % ny),
             static_cast<std::int32_t>(index / nx / ny)};
   }
@@ -55,9 +55,13 @@ class BodyGrid {
   Vec3 centre(Place cube) const { return corner(cube) + Vec3{edge_ / 2, edge_ / 2, edge_ / 2}; }
 
  private:
-  std::uint64_t index(Place place, std::int32_t more) const {
-    const auto nx = static_cast<std::uint64_t>(count_[0] + more),
-               ny = static_cast<std::uint64_t>(count_[1] + more);
+  /// Returns the number of cubes along x and y, or with `more` = 1 that of corners.
+  std::pair<std::uint64_t, std::uint64_t> row_sizes(std::uint64_t more) const {
+    return {static_cast<std::uint64_t>(count_[0]) + more,
+            static_cast<std::uint64_t>(count_[1]) + more};
+  }
+  std::uint64_t index(Place place, std::uint64_t more) const {
+    const auto [nx, ny] = row_sizes(more);
     return (static_cast<std::uint64_t>(place.k) * ny + static_cast<std::uint64_t>(place.j)) * nx +
            static_cast<std::uint64_t>(place.i);
   }

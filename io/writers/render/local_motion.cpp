@@ -22,8 +22,9 @@ Matrix3d eigen(const Matrix& rows) {
 Matrix LocalMotion::gradient() const {
   constexpr double least = 0.05;  // of the largest eigenvalue, for a direction that has neighbours
   const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(eigen(moment_));
-  const Vector3d values = solver.eigenvalues();  // rising
-  const Matrix3d axes = solver.eigenvectors(), moved = eigen(moved_);
+  const Vector3d& values = solver.eigenvalues();  // rising
+  const Matrix3d& axes = solver.eigenvectors();
+  const Matrix3d moved = eigen(moved_);
   Matrix3d images = axes;  // of the axes
   int known = 0;
   for (int n = 2; n >= 0 && values[n] > least * values[2]; --n, ++known)

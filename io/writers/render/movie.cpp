@@ -13,8 +13,6 @@
 #include <filesystem>
 #include <stdexcept>
 
-extern char** environ;
-
 namespace hyperlattice::render {
 
 namespace {
@@ -37,6 +35,7 @@ std::optional<std::string> find_program(std::string_view name) {
 int run(const std::vector<std::string>& arguments, const std::string& folder,
         const std::string& messages) {
   std::vector<char*> list;
+  list.reserve(arguments.size() + 1);
   for (const std::string& argument : arguments) list.push_back(const_cast<char*>(argument.c_str()));
   list.push_back(nullptr);
   posix_spawn_file_actions_t actions;

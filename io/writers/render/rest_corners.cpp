@@ -43,10 +43,12 @@ RestCorners::RestCorners(const BodyGrid& grid, int steps) {
   for (const Edge& edge : edges)
     if (corners.empty() || corners.back() != edge.first) corners.push_back(edge.first);
   std::vector<std::uint32_t> ends;  // the entry of the second corner of each edge
+  ends.reserve(edges.size());
   for (const Edge& edge : edges)
     ends.push_back(static_cast<std::uint32_t>(
         std::lower_bound(corners.begin(), corners.end(), edge.second) - corners.begin()));
   std::vector<Vec3> points, moved(corners.size());
+  points.reserve(corners.size());
   for (const std::uint64_t corner : corners)
     points.push_back(grid.corner(grid.corner_place(corner)));
   for (int step = 0; step < 2 * steps; ++step) {

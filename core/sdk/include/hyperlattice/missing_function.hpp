@@ -24,7 +24,7 @@ struct MissingFunction {
   static constexpr bool engine = HYPERLATTICE_HAS(join) || HYPERLATTICE_HAS(exchange);
 
 #define HYPERLATTICE_NEEDS(kind, name, declaration) \
-  static_assert(!kind || HYPERLATTICE_HAS(name),    \
+  static_assert(!(kind) || HYPERLATTICE_HAS(name),  \
                 "this " #kind " lacks the public member: " declaration)
 
   HYPERLATTICE_NEEDS(material, constants, "MaterialConstants constants(const LatticeFacts&) const");
