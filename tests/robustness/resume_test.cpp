@@ -29,7 +29,7 @@ const StateCase rest_cases[] = {
     {"rest_falling",  // the load falls where springs break
      [](json& scene) {
        make_rest(scene, {0, 0, 3.2e-5},
-                 {{"type", "solvers.static"}, {"load_steps", 50}, {"snap_back", true}});
+                 {{"type", "solvers.static"}, {"load_steps", 100}, {"snap_back", true}});
      },
      20},
     {"rest_bending",  // so far that the preconditioner is made anew
